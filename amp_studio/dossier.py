@@ -123,7 +123,7 @@ def _added(
     return Additions(
         motion=motion,
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
-        tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
+        tunings=() if "tuning" in contents.without or source is None else tuple(_tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),
         programs=tuple(programs_of(file, contents.programs)),
     )
@@ -290,7 +290,7 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
     pickle.dump(tuple(motion_figures(read_content(Path("the file"), asked.read()))), out)
 
 
-def tunings_of(file: ParameterFile, source: Path) -> Iterator[TuningLine]:
+def _tunings_of(file: ParameterFile, source: Path) -> Iterator[TuningLine]:
     """Yield what the record of tunings has of a file, oldest first, and which gains it still has; raises
     OSError.
     """

@@ -14,19 +14,19 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 
-GROUP = "amp_studio.families"
+_GROUP = "amp_studio.families"
 """Group of entry points, and the module with the program's own table."""
 
 
 def own_places() -> dict[str, str]:
     """Return family -> place of its record, of the families of the program."""
-    places: dict[str, str] = import_module(GROUP).FAMILIES
+    places: dict[str, str] = import_module(_GROUP).FAMILIES
     return places
 
 
 def own_formats() -> dict[str, str]:
     """Return name -> what it is and its endings, of the text formats of the program's families."""
-    formats: dict[str, dict[str, str]] = import_module(GROUP).FORMATS
+    formats: dict[str, dict[str, str]] = import_module(_GROUP).FORMATS
     return {name: what for each in formats.values() for name, what in each.items()}
 
 
@@ -38,7 +38,7 @@ def installed_places() -> dict[str, str]:
     from importlib.metadata import entry_points
 
     own = own_places()
-    return {each.name: each.value for each in entry_points(group=GROUP) if each.name not in own}
+    return {each.name: each.value for each in entry_points(group=_GROUP) if each.name not in own}
 
 
 def _has_families(folder: str) -> bool:
@@ -54,7 +54,7 @@ def _has_families(folder: str) -> bool:
         return False
     for package in packages:
         try:
-            if f"[{GROUP}]" in Path(package, "entry_points.txt").read_text("utf-8"):
+            if f"[{_GROUP}]" in Path(package, "entry_points.txt").read_text("utf-8"):
                 return True
         except (OSError, ValueError):  # most have none
             continue

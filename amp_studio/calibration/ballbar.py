@@ -17,9 +17,9 @@ from fractions import Fraction
 from .errors import CalibrationError
 from .measurement import MeasuredRun, Measurement
 
-TURNS = {"first": (0.0, 180.0), "second": (90.0, 270.0)}
+_TURNS = {"first": (0.0, 180.0), "second": (90.0, 270.0)}
 """Which axis of a circle -> the angles at which it turns round, in degrees."""
-NEAR, FAR = 2.0, 12.0
+_NEAR, _FAR = 2.0, 12.0
 """Degrees on each side of a turn between which the lines are fitted."""
 _MIN_POINTS = 3
 
@@ -30,12 +30,12 @@ def lost_motions(measurement: Measurement, which: str) -> list[Fraction]:
     ``which`` axis of the circle: "first" or "second".
     Raises CalibrationError where the points do not reach a turn.
     """
-    if which not in TURNS:
+    if which not in _TURNS:
         raise CalibrationError("name whether the axis is the first or the second one of the circle")
-    steps = [_step(run, turn) for run in measurement.runs for turn in TURNS[which]]
+    steps = [_step(run, turn) for run in measurement.runs for turn in _TURNS[which]]
     found = [Fraction(repr(step)) for step in steps if step is not None]
     if not found:
-        ends = " and ".join(f"{turn:g}" for turn in TURNS[which])
+        ends = " and ".join(f"{turn:g}" for turn in _TURNS[which])
         raise CalibrationError(
             f"the circle has too few points about {ends} degrees, where this axis turns round"
         )
@@ -51,7 +51,7 @@ def _step(run: MeasuredRun, turn: float) -> float | None:
     for at, by in run.points:
         # Within half a turn of it: 359 degrees is 1 before the turn at 0.
         distance = (float(at) - turn + 180.0) % 360.0 - 180.0
-        if NEAR <= abs(distance) <= FAR:
+        if _NEAR <= abs(distance) <= _FAR:
             (above if distance > 0 else below).append((distance, float(by)))
     low, high = _at_zero(below), _at_zero(above)
     if low is None or high is None:

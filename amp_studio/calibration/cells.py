@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from .errors import MeasurementError
 
-MAX_LINES = 100_000
-LONGEST_LINE = 10_000
+_MAX_LINES = 100_000
+_LONGEST_LINE = 10_000
 _COMMENT = re.compile(r"\s*(#|//|!|%|;|'|\*)")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,2})?")
 _LONGEST_NUMBER = 40
@@ -22,7 +22,7 @@ _COMMA_PAIR = re.compile(r"\s*[+-]?[0-9]+,[0-9]+(?:\s+[+-]?[0-9]+,[0-9]+)+\s*")
 # 0,005 read as two cells gives 005: no program writes a number so.
 _LEADING_ZERO = re.compile(r"[+-]?0[0-9]+")
 _COMMA_NUMBER = re.compile(r"[+-]?[0-9]+,[0-9]+")
-ASK_COMMA = "name the decimal sign (a decimal comma is not guessed)"
+_ASK_COMMA = "name the decimal sign (a decimal comma is not guessed)"
 
 
 def lines_of(text: str) -> list[tuple[int, str]]:
@@ -30,12 +30,12 @@ def lines_of(text: str) -> list[tuple[int, str]]:
     raises MeasurementError for what is too long.
     """
     lines = text.removeprefix("\ufeff").splitlines()
-    if len(lines) > MAX_LINES:
-        raise MeasurementError(f"{len(lines)} lines are too many: {MAX_LINES} at most")
+    if len(lines) > _MAX_LINES:
+        raise MeasurementError(f"{len(lines)} lines are too many: {_MAX_LINES} at most")
     kept = []
     for n, line in enumerate(lines, 1):
-        if len(line) > LONGEST_LINE:
-            raise MeasurementError(f"the line has more than {LONGEST_LINE} characters", n)
+        if len(line) > _LONGEST_LINE:
+            raise MeasurementError(f"the line has more than {_LONGEST_LINE} characters", n)
         if line.strip() and not _COMMENT.match(line):
             # Word processors and web pages put the typographic minus sign in place of the hyphen.
             kept.append((n, line.replace("\u2212", "-")))
@@ -78,7 +78,7 @@ def number_of(cell: str, decimal: str, separator: str, line: int) -> Fraction:
     if len(text) > _LONGEST_NUMBER or not _NUMBER.fullmatch(text):
         raise MeasurementError(f"'{cell[:40]}' is no number" if cell else "a cell is empty", line)
     if separator == "," and _LEADING_ZERO.fullmatch(text):
-        raise MeasurementError(f"{cell[:40]} may be what follows a decimal comma: {ASK_COMMA}", line)
+        raise MeasurementError(f"{cell[:40]} may be what follows a decimal comma: {_ASK_COMMA}", line)
     value = Fraction(text)
     if abs(value) > 10**9:
         raise MeasurementError(f"{cell} is too large", line)
@@ -89,7 +89,7 @@ def _with_point(cell: str, decimal: str, line: int) -> str:
     """Return a cell with a decimal point; raises MeasurementError where its sign is not the chosen one."""
     if "," in cell and _COMMA_NUMBER.fullmatch(cell):
         if decimal != "comma":
-            raise MeasurementError(f"{cell[:40]} may have a decimal comma: {ASK_COMMA}", line)
+            raise MeasurementError(f"{cell[:40]} may have a decimal comma: {_ASK_COMMA}", line)
         return cell.replace(",", ".")
     if decimal == "comma" and "." in cell:
         raise MeasurementError(f"{cell[:40]} has a point, and the decimal sign is to be a comma", line)

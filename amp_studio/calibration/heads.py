@@ -68,7 +68,7 @@ def read_head(text: str, column: int) -> Head:
     plain = plain.removesuffix(" in").replace(" _", " ").strip()
     # The first that fits: columns of spreads come first, since "standard deviation" has a word of errors.
     kind: HeadKind = next((kind for kind, pattern in _KINDS if re.fullmatch(pattern, plain)), "")
-    rising = direction_in(plain)
+    rising = _direction_in(plain)
     if kind in ("", "run") and column and (rising is not None or re.search(r"\d", plain)):
         kind = "error"  # Run 1, 2-, F1
     return Head(kind, unit, rising)
@@ -80,7 +80,7 @@ def unit_of(cell: str) -> str | None:
     return _UNITS.get(word) if word else ""
 
 
-def direction_in(text: str) -> bool | None:
+def _direction_in(text: str) -> bool | None:
     """Return whether a text names the rising direction (True), the falling one (False), or none of them."""
     rising, falling = _RISING.search(text), _FALLING.search(text)
     # Words of both directions, as "pos. reverse", name none for certain.
@@ -90,4 +90,4 @@ def direction_in(text: str) -> bool | None:
 def direction_of(cell: str) -> bool | None:
     """Return the direction that a cell of a direction column means; None for what means none."""
     word = cell.strip().casefold()
-    return _WORDS[word] if word in _WORDS else direction_in(word)
+    return _WORDS[word] if word in _WORDS else _direction_in(word)

@@ -125,7 +125,7 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, request: P
     raises CalibrationError for what is to be answered first.
     """
     offered = _offered(file)
-    check_unit(file, offered, axis, measurement.unit)
+    _check_unit(file, offered, axis, measurement.unit)
     present = _present(file, offered, axis, request)
     old = lost_motion(file, offered, axis)
     if request.was_on is None:
@@ -247,7 +247,7 @@ def shown_unit(file: ParameterFile, table: CalibrationTable) -> tuple[str, Fract
     return table.unit, Fraction(1)
 
 
-def check_unit(file: ParameterFile, offered: Compensation, axis: str, unit: str) -> None:
+def _check_unit(file: ParameterFile, offered: Compensation, axis: str, unit: str) -> None:
     """Raise CalibrationError where positions have no unit of this axis."""
     wanted = base_unit(file, offered, axis)
     if unit != wanted:

@@ -30,8 +30,8 @@ from .measurement import (
 )
 from .raw import RawRun, RawTable
 
-MAX_RUNS = 1_000
-MAX_TARGETS = 10_000
+_MAX_RUNS = 1_000
+_MAX_TARGETS = 10_000
 _SIZES = {
     "mm": Fraction(1),
     "in": Fraction("25.4"),
@@ -345,8 +345,8 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
             continue
         direction = step
         runs[-1].append(pile)
-    if sum(max(len(values) for _, values in run) for run in runs if run) > MAX_RUNS:
-        raise MeasurementError(f"these are more than {MAX_RUNS} runs")
+    if sum(max(len(values) for _, values in run) for run in runs if run) > _MAX_RUNS:
+        raise MeasurementError(f"these are more than {_MAX_RUNS} runs")
     return [part for run in runs for part in _layers(run)]
 
 
@@ -388,8 +388,8 @@ def _with_directions(runs: Sequence[RawRun]) -> list[MeasuredRun]:
     count = len({at for run in found for at, _ in run.points})
     if count < 2:
         raise MeasurementError("points at two positions at least are needed")
-    if count > MAX_TARGETS:
-        raise MeasurementError(f"{count} target positions are too many: {MAX_TARGETS} at most")
+    if count > _MAX_TARGETS:
+        raise MeasurementError(f"{count} target positions are too many: {_MAX_TARGETS} at most")
     return found
 
 

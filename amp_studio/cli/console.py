@@ -88,11 +88,11 @@ def progress(of: str = "") -> Callable[[str, int, int], None]:
         if last.get(stage) == percent:
             return
         if changes:
-            print_over(f"{WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
+            print_over(f"{_WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
         elif percent == 100:
             print_notice(f"{before}{stage} 100 %")
-        elif stage in WAITING and stage not in last:
-            print_notice(before + WAITING[stage])
+        elif stage in _WAITING and stage not in last:
+            print_notice(before + _WAITING[stage])
         last[stage] = percent
 
     def silence(seconds: int) -> None:
@@ -109,7 +109,7 @@ def progress(of: str = "") -> Callable[[str, int, int], None]:
     return show
 
 
-WAITING = {"restart": "waiting for the control to restart"}
+_WAITING = {"restart": "waiting for the control to restart"}
 """What the person reads while a stage waits for another program."""
 
 

@@ -10,7 +10,7 @@ from .ticks import decades, figure_text, ticks
 
 LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 28.0, 34.0
 """Room for figures and texts around a drawing, in points."""
-BARE = 12.0
+_BARE = 12.0
 """Room above and below a diagram, whose axes are not written."""
 EDGE = 8.0
 """The same around a diagram of boxes."""
@@ -34,7 +34,7 @@ class Placement:
         # Rows have their units at the right end, outside the frame.
         right = RIGHT + (44.0 if any(row[2] for row in scene.y.rows) else 0.0)
         # Beside axes that are not written nothing is: a diagram has the room for its own texts.
-        top, bottom = (TOP, BOTTOM) if scene.x.is_written or scene.y.is_written else (BARE, BARE)
+        top, bottom = (TOP, BOTTOM) if scene.x.is_written or scene.y.is_written else (_BARE, _BARE)
         inner = max(width - LEFT - right, 10.0), max(height - top - bottom, 10.0)
         if not scene.equal:
             return cls(scene, LEFT, top, *inner)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 DIVISIONS = 8
 """Of the vertical axis of a recorder."""
-MARGIN = 0.06
+_MARGIN = 0.06
 """Share of a range that is free above and below the curves."""
 _BASE, _DEVIATION = 2.0, 1.0
 """Radius of the programmed circle and the largest deviation beside it, as they are drawn."""
@@ -52,7 +52,7 @@ def panel_of(
     if not without_zero:
         # With 0 in it an error is seen in proportion; a position far from 0 is better off without.
         low, high = min(0.0, low), max(0.0, high)
-    room = MARGIN * (high - low)
+    room = _MARGIN * (high - low)
     return Scene(
         title,
         "",
@@ -84,7 +84,7 @@ def zoomed(panel: Scene, span: tuple[float, float]) -> Scene:
     if panel.y.is_fixed:
         return replace(panel, x=replace(panel.x, low=span[0], high=span[1]))
     low, high = visible(panel.curves, panel.levels, span)
-    room = MARGIN * (high - low)
+    room = _MARGIN * (high - low)
     return replace(
         panel,
         x=replace(panel.x, low=span[0], high=span[1]),

@@ -13,7 +13,7 @@ from .scene import Curve, HeatMap
 if TYPE_CHECKING:
     from .scene import Series
 
-UNSEEN = 0.25
+_UNSEEN = 0.25
 """Height in points that cannot be seen: it looks like a straight line."""
 
 
@@ -44,7 +44,7 @@ def drawn_values(frame: Placement, curve: Curve) -> tuple[Series, Series, tuple[
     if (curve.is_stepped or curve.dense) and len(x) > 2 * columns:
         x, y, least, most = banded(x, y, columns)
         return x, y, (least, most)
-    unseen = UNSEEN * (frame.scene.y.high - frame.scene.y.low) / frame.height
+    unseen = _UNSEEN * (frame.scene.y.high - frame.scene.y.low) / frame.height
     return (x, y, None) if curve.dots else (*thinned(x, y, columns, unseen), None)
 
 

@@ -134,7 +134,7 @@ def write_atomic(
     # The rename is on the disk only when its folder is: a power cut before that brings the old file back,
     # whole.
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is not one of the save
-        sync_folder(real.parent)
+        _sync_folder(real.parent)
     for message in notes:
         notify(f"{path.name}: {message}")
     return digest(made) if isinstance(made, bytes) else ""
@@ -280,7 +280,7 @@ def append_line(path: Path, content: bytes, like: Path) -> None:
         os.close(handle)
 
 
-def sync_folder(folder: Path) -> None:
+def _sync_folder(folder: Path) -> None:
     """Force a rename to the disk where the system lets folders be opened."""
     if os.name != "posix":
         return

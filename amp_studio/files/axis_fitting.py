@@ -223,7 +223,7 @@ def _make_room(file: ParameterFile, place: str, free: list[str]) -> None:
         raise AxisError(f"there is no free axis after axis {place}")
     order = {instances[n]: instances[n + 1] for n in range(start, end)} | {instances[end]: place}
     moved(file, order)
-    reset_axis(file, place)
+    _reset_axis(file, place)
 
 
 def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: str | None) -> str:
@@ -276,10 +276,10 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     with file.step() as changes:
         if profile := file.schema.family.axes:
             file.set_checked(_unfitted(profile, axis))
-            reset_axis(file, axis)
+            _reset_axis(file, axis)
         elif declared is not None:
             _remove(file, declared, axis)
-            reset_axis(file, axis)
+            _reset_axis(file, axis)
     return changes
 
 
@@ -311,7 +311,7 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
     file.set_checked({(parameter, ""): value for parameter, value in counted_by.items() if parameter})
 
 
-def reset_axis(file: ParameterFile, axis: str) -> None:
+def _reset_axis(file: ParameterFile, axis: str) -> None:
     """Put the values of an axis back to their printed defaults, except its letter and what fits it."""
     own = set(parameters_of_axes(file.schema))
     described = (declared := file.schema.family.declared_axes) is not None and declared.letters

@@ -16,7 +16,7 @@ from amp_studio.schema import Address, read_address, written
 
 from .parameter_file import ParameterFile
 
-LONGEST_NOTE = 4_000
+_LONGEST_NOTE = 4_000
 """Characters of a note."""
 # What YAML cannot contain: control characters, halves of surrogate pairs.
 _UNWRITABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -122,8 +122,8 @@ def _with(notes: Mapping[str, str], key: str, text: str) -> dict[str, str]:
 
 def note_fault(text: str) -> str:
     """Return why a text can be no note; empty where it can."""
-    if len(text) > LONGEST_NOTE:
-        return f"the note has {len(text)} characters, and {LONGEST_NOTE} are the most"
+    if len(text) > _LONGEST_NOTE:
+        return f"the note has {len(text)} characters, and {_LONGEST_NOTE} are the most"
     if odd := _UNWRITABLE.search(text):
         return f"the note contains the character U+{ord(odd[0]):04X}, which no file can contain"
     return ""

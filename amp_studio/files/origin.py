@@ -15,7 +15,7 @@ from .paths import real_path
 if TYPE_CHECKING:
     from .parameter_file import ParameterFile
 
-MADE_FROM = "made_from"
+_MADE_FROM = "made_from"
 """Key of the header: the other file, as seen from the folder of this one."""
 
 _ENTRY = re.compile(rb"^made_from:[ \t][^\r\n]*", re.MULTILINE)
@@ -24,14 +24,14 @@ _ENTRY = re.compile(rb"^made_from:[ \t][^\r\n]*", re.MULTILINE)
 def record_origin(file: ParameterFile, path: Path, origin: Path) -> None:
     """Write into a file that will be at ``path`` what it is made from; nothing where no way leads there."""
     with contextlib.suppress(ValueError, OSError):  # another drive; no such folder
-        file.header.extra[MADE_FROM] = Path(
+        file.header.extra[_MADE_FROM] = Path(
             os.path.relpath(real_path(origin), real_path(path).parent)
         ).as_posix()
 
 
 def origin_of(file: ParameterFile, path: Path) -> Path | None:
     """Return what a file at ``path`` was made from; None if it is not known."""
-    return _path_of(file.header.extra.get(MADE_FROM), path.parent)
+    return _path_of(file.header.extra.get(_MADE_FROM), path.parent)
 
 
 def origin_named(content: bytes, folder: str) -> Path | None:
@@ -41,7 +41,7 @@ def origin_named(content: bytes, folder: str) -> Path | None:
     if found is None:
         return None
     try:  # by the reader of all files: a name may be in quotes, and a remark behind it
-        source = read_yaml(found[0].decode("utf-8"), spelled_scalar).data.get(MADE_FROM)
+        source = read_yaml(found[0].decode("utf-8"), spelled_scalar).data.get(_MADE_FROM)
     except (UnicodeDecodeError, YamlError):
         return None
     return _path_of(source, Path(folder))

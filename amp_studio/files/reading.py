@@ -58,7 +58,7 @@ SECTIONS = ("done", "values", "forced", *NOTE_SECTIONS)
 DESCRIPTION = "description"
 """The description that the control gave of itself, in lines, where its schema is made of that:
 so the file opens without it."""
-KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
+_KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
 _REMEMBERED = 200
 """Characters of the longest text whose meaning is remembered."""
 
@@ -281,10 +281,10 @@ def extra_entries(text: str, data: dict[str, Any]) -> dict[str, object]:
     """Return the keys this program does not know with their values as YAML means them,
     so that a save keeps their kind.
     """
-    if not set(data) - KNOWN_KEYS:
+    if not set(data) - _KNOWN_KEYS:
         return {}
     typed = read_yaml(text, spelled_scalar).data
-    return {key: value for key, value in typed.items() if key not in KNOWN_KEYS}
+    return {key: value for key, value in typed.items() if key not in _KNOWN_KEYS}
 
 
 def value_in_file(file: ParameterFile, address: Address, text: str) -> Value | None:

@@ -74,7 +74,7 @@ def _flow_text(value: Any) -> str:
 # -- entries
 
 
-def entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
+def _entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
     """Yield the lines of one entry of a mapping: lists and mappings in it as blocks,
     what is in these in one line each.
     """
@@ -85,7 +85,7 @@ def entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
     if isinstance(value, Mapping) and value:
         yield f"{indent}{name}:"
         for inner, inside in value.items():
-            yield from entry_lines(inner, inside, indent + "  ")
+            yield from _entry_lines(inner, inside, indent + "  ")
     elif isinstance(value, (list, tuple)) and value:
         yield f"{indent}{name}:"
         yield from (f"{indent}- {_line_text(item)}" for item in value)
@@ -100,7 +100,7 @@ def _line_text(value: Any) -> str:
 
 def new_text(entries: Mapping[str, Any], end: str = "") -> str:
     """Return a document of these entries, with an end mark."""
-    lines = [line for key, value in entries.items() for line in entry_lines(key, value)]
+    lines = [line for key, value in entries.items() for line in _entry_lines(key, value)]
     return "".join(f"{line}\n" for line in [*lines, *filter(None, [end])])
 
 
@@ -199,7 +199,7 @@ class _Editor:
         if last is not None:
             dash, at = text.rfind("-", 0, last.start), self._line_behind(last.end)
             indent = " " * (dash - self._line_start(dash))
-        lines = [line for key, value in item.items() for line in entry_lines(key, value, indent + "  ")]
+        lines = [line for key, value in item.items() for line in _entry_lines(key, value, indent + "  ")]
         first = f"{indent}- {lines[0].lstrip()}"
         self._insert_lines(at, [*filter(None, [title]), first, *lines[1:]])
 
@@ -237,7 +237,7 @@ class _Editor:
         return data
 
     def _insert(self, at: int, key: str, value: Any, indent: str) -> None:
-        self._insert_lines(at, entry_lines(key, value, indent))
+        self._insert_lines(at, _entry_lines(key, value, indent))
 
     def _insert_lines(self, at: int, new: Iterable[str]) -> None:
         lines = "".join(line + self.line_end for line in new)

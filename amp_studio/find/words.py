@@ -30,7 +30,7 @@ _REMEMBERED = 200
 """Words of which is remembered what they can be."""
 _MEASURED = 40
 """Words that are measured for one that is mistyped; those with the most pairs of letters in common."""
-PREFIX, ONE_SLIP, TWO_SLIPS = 0.85, 0.7, 0.5
+_PREFIX, _ONE_SLIP, _TWO_SLIPS = 0.85, 0.7, 0.5
 """What a match is worth where a word is only begun, or mistyped; an equal word is worth 1."""
 
 
@@ -126,12 +126,12 @@ class Vocabulary:
         found = {word: 1.0} if word in self._at else {}
         for longer in self.begun(word):
             # The less is still to be typed, the likelier; never as much as the whole word.
-            found[longer] = PREFIX + (1 - PREFIX) * len(word) / (len(longer) + 1)
+            found[longer] = _PREFIX + (1 - _PREFIX) * len(word) / (len(longer) + 1)
         most = _slips(word)
         # Slips are looked for only where nothing fits: beside a right word they are noise.
         if most and not found:
             for near, slips in self._near(word, most):
-                found.setdefault(near, ONE_SLIP if slips == 1 else TWO_SLIPS)
+                found.setdefault(near, _ONE_SLIP if slips == 1 else _TWO_SLIPS)
         return found
 
     def nearest(self, word: str) -> str:

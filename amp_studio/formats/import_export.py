@@ -47,7 +47,7 @@ from .text_format import (
     text_to_recognise,
 )
 
-GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
+_GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
 _MAX_BYTES = 4 * 2**20
 """Some ten times what the largest family would fill in its longest format."""
@@ -57,12 +57,12 @@ _MAX_PDF = 64 * 2**20
 
 def all_formats() -> tuple[TextFormat, ...]:
     """Return every format, in the order in which they are tried when the family of a text is not named."""
-    return (*GENERAL, *(own for family in registered_families() for own in _own_formats(family)))
+    return (*_GENERAL, *(own for family in registered_families() for own in _own_formats(family)))
 
 
 def formats_of(family: str) -> tuple[TextFormat, ...]:
     """Return the formats a family can be written in, its own first."""
-    return (*_own_formats(family), *GENERAL)
+    return (*_own_formats(family), *_GENERAL)
 
 
 def _own_formats(family: str) -> tuple[TextFormat, ...]:
@@ -292,7 +292,7 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
         return _named(format_key, offered)
     text = text_to_recognise(content)
     # Our own table has a heading that nothing else has; listings are read out of any text around them.
-    found = next((f for f in (*GENERAL, *offered) if f.recognises(text)), None)
+    found = next((f for f in (*_GENERAL, *offered) if f.recognises(text)), None)
     if found is None:
         known = f"Known: {', '.join(f.key for f in offered)}"
         # A text of another family is the usual mistake: its name helps more than a list of formats.

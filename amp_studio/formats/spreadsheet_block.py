@@ -18,9 +18,9 @@ from amp_studio.errors import AmpStudioError
 from amp_studio.files import cell_text, text_cell
 from amp_studio.schema import write_number
 
-LONGEST, LONGEST_MARKUP = 4_000_000, 1_500_000
+_LONGEST, _LONGEST_MARKUP = 4_000_000, 1_500_000
 """Characters of a block that is read, and of its HTML; of a larger one the text is taken."""
-MAX_CELLS = 50_000
+_MAX_CELLS = 50_000
 
 _QUOTED = re.compile(r'"((?:[^"]|"")*)"(?=\t|\r\n|\n|\r|\Z)')
 _PLAIN = re.compile(r"[^\t\r\n]*")
@@ -49,15 +49,15 @@ def read_block(text: str, markup: str = "") -> list[list[str]]:
     """Return the rows of a block, all of one length;
     from the table in the HTML ``markup`` where there is one. Raises BlockError.
     """
-    if len(markup) > LONGEST_MARKUP:
+    if len(markup) > _LONGEST_MARKUP:
         markup = ""
-    if len(text) > LONGEST:
+    if len(text) > _LONGEST:
         raise BlockError("The clipboard has more than 4 million characters. Copy fewer cells.")
     # HTML first: it has the numbers themselves, the text only what the spreadsheet shows.
     rows = (_rows_of_html(markup) if "<td" in markup.lower() else []) or _rows_of_text(text)
     width = max(map(len, rows), default=0)
-    if width * len(rows) > MAX_CELLS:
-        raise BlockError(f"The clipboard has more than {MAX_CELLS:,} cells. Copy fewer.")
+    if width * len(rows) > _MAX_CELLS:
+        raise BlockError(f"The clipboard has more than {_MAX_CELLS:,} cells. Copy fewer.")
     return [[_plain(cell_text(cell)) for cell in row] + [""] * (width - len(row)) for row in rows]
 
 
@@ -182,8 +182,8 @@ class _TableReader(HTMLParser):
         self._number = attributes.get("sdval") or attributes.get("x:num")
         self._span = _span(attributes.get("colspan")), _span(attributes.get("rowspan"))
         # Counted while it is read: spans of 1000 make many cells of few characters.
-        if sum(map(len, self.rows)) > MAX_CELLS:
-            raise BlockError(f"The clipboard has more than {MAX_CELLS:,} cells. Copy fewer.")
+        if sum(map(len, self.rows)) > _MAX_CELLS:
+            raise BlockError(f"The clipboard has more than {_MAX_CELLS:,} cells. Copy fewer.")
 
     def _leave_out_covered(self) -> None:
         row = self.rows[-1]

@@ -12,11 +12,11 @@ from .figures import ValueReader
 from .file_pictures import FilePicture, travel_ends
 from .homing import read_home
 
-ACROSS = 0.8
+_ACROSS = 0.8
 """Where across its travel the first axis is: near one side, as zones are in the middle more often."""
 SEEN = 1e-5
 """Share of the picture from which a way behind a limit has its length."""
-BEYOND = 0.12
+_BEYOND = 0.12
 """How far behind the limit an axis is sent, in lengths of the travel."""
 
 
@@ -34,7 +34,7 @@ def usual_way(picture: FilePicture, part: str) -> PlaneWay | None:
     """
     scene = picture.scene(part)
     ends = travel_ends(picture.file, _axes(picture, scene, part))
-    shares = (ACROSS, 0.5) if len(ends) == 2 else (0.5,)
+    shares = (_ACROSS, 0.5) if len(ends) == 2 else (0.5,)
     # Without two ends there is no middle: from 0, which every axis has.
     start = [
         low + share * (high - low) if _is_finite(low, high) else 0.0
@@ -45,7 +45,7 @@ def usual_way(picture: FilePicture, part: str) -> PlaneWay | None:
     for n in reversed(range(len(ends))):
         low, high = ends[n]
         if math.isfinite(high):
-            to[n] = high + BEYOND * (high - low if _is_finite(low, high) else abs(high) or 1.0)
+            to[n] = high + _BEYOND * (high - low if _is_finite(low, high) else abs(high) or 1.0)
             return PlaneWay(_point(start), _point(to))
     return None
 
@@ -177,7 +177,7 @@ def _past_limit(base: Scene, stop: Point, past: Point, hard: float | None) -> tu
 
 
 def _wider(scale: Scale) -> Scale:
-    room = BEYOND * (scale.high - scale.low)
+    room = _BEYOND * (scale.high - scale.low)
     return replace(scale, low=scale.low - room, high=scale.high + room)
 
 

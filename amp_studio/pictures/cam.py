@@ -12,7 +12,7 @@ from amp_studio.sim import SimulationError, cam_picture, law_of
 from .figures import ValueReader
 from .shapes import SceneShapes
 
-VIEWS = {"": 0, "speed": 1, "acceleration": 2}
+_VIEWS = {"": 0, "speed": 1, "acceleration": 2}
 """What is drawn -> which panel of the profile it is."""
 
 
@@ -33,7 +33,7 @@ def draw_cam(file: ParameterFile, roles: CamRoles, part: str) -> Scene:
             raise SimulationError("This family has no cams that are printed")
         cam = form.present(file, axis)
         points, profile = len(cam.x), cam_picture(cam)
-        panel = next(iter(profile.panels[VIEWS[view] :]), None)
+        panel = next(iter(profile.panels[_VIEWS[view] :]), None)
         for doubt in profile.facts:
             figures.add_note(doubt)
     except SimulationError as error:

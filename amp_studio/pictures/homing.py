@@ -18,7 +18,7 @@ MARGIN = 0.08
 """Share of the length of the drawing that is left free at each side."""
 SWITCH = 0.03
 """How far beyond its marker a switch is drawn whose place is no value of the file."""
-ALONG: tuple[Literal["x", "y"], ...] = ("x", "y")
+_ALONG: tuple[Literal["x", "y"], ...] = ("x", "y")
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ def draw_home(
     if along_x and along_y:
         drags = tuple(
             figures.drag(position, along, view[1] - view[0])
-            for position, along, view in zip((along_x, along_y), ALONG, views, strict=True)
+            for position, along, view in zip((along_x, along_y), _ALONG, views, strict=True)
         )
         label = f"{along_x.label}, {along_y.label}"
         drawing.handles.append(Handle((x, y), drags, label, text, second=True))

@@ -16,7 +16,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.sim import HomingCourse, HomingStage, Trace, address_of, value_text
 
 Anchor = Literal["left", "right", "middle", "above", "below"]
-STAGES = {
+_STAGES = {
     "approach": "to the switch",
     "back": "back off the switch",
     "again": "slowly onto the switch",
@@ -24,9 +24,9 @@ STAGES = {
     "search": "to the marker",
     "final": "to the home position",
 }
-MARGIN = 0.06
+_MARGIN = 0.06
 """Share of the picture that is left free at each side."""
-MAX_POINTS, MAX_MARKERS = 120, 60
+_MAX_POINTS, _MAX_MARKERS = 120, 60
 """Points of a stage, and markers, that a picture has room for."""
 FREE = 0.3
 """How far a switch that stays on is drawn, in lengths of the way."""
@@ -72,7 +72,7 @@ class _Way:
         # One row earlier and one later: the lines of two stages meet.
         first, last = (int(np.searchsorted(time, begins[k])) for k in (n, n + 1))
         found = self.points[max(first - 1, 0) : last + 1]
-        step = max(1, len(found) // MAX_POINTS)
+        step = max(1, len(found) // _MAX_POINTS)
         # The mean of some rows: one of them would show the counts of its position device as a ripple.
         means = [
             (fmean(place for place, _ in some), fmean(speed for _, speed in some))
@@ -122,7 +122,7 @@ def _scales(way: _Way) -> tuple[Scale, Scale]:
     tall = max(speeds) - min(speeds) or 1.0
     label = "position from the switch" if course.switch else "position from the start"
     return (
-        Scale(label, unit, low - MARGIN * (high - low), high + MARGIN * (high - low)),
+        Scale(label, unit, low - _MARGIN * (high - low), high + _MARGIN * (high - low)),
         Scale("speed", f"{unit}/min", min(0.0, *speeds) - 0.2 * tall, max(0.0, *speeds) + 0.2 * tall),
     )
 
@@ -168,8 +168,8 @@ class _Shapes:
             math.floor((self.x.high - first) / course.turn),
         )
         # A short turn has thousands of markers in a long picture; number 0 is the one of the homing.
-        if high - low >= MAX_MARKERS:
-            low, high = max(low, -MAX_MARKERS // 2), min(high, MAX_MARKERS // 2)
+        if high - low >= _MAX_MARKERS:
+            low, high = max(low, -_MAX_MARKERS // 2), min(high, _MAX_MARKERS // 2)
         return [first + n * course.turn for n in range(low, high + 1)]
 
     def dots(self) -> Iterator[Dot]:
@@ -216,7 +216,7 @@ class _Shapes:
         called = file.machine_schema.number(address) if address else ""
         detail = f"{called} at {speed}" if called else speed
         side: Anchor = "above" if at[1] >= 0.0 else "below"
-        return Text(at, f"{number} {STAGES[stage.name]}", detail, side, address, "now")
+        return Text(at, f"{number} {_STAGES[stage.name]}", detail, side, address, "now")
 
 
 def _notes(way: _Way) -> Iterator[PictureNote]:

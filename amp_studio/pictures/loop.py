@@ -21,14 +21,14 @@ from .shapes import SceneShapes
 
 LEFT, RIGHT = 0.7, 2.5
 """Sides of the boxes; the picture is 10 wide, the parameters begin beside them."""
-NAMES = 2.95
+_NAMES = 2.95
 BACK, AHEAD, PAST = 0.15, 0.42, 2.75
 """Where the lines run that go back, ahead from the command, and past the boxes."""
 ROOM = 0.35
 """Between two rows, of the height of a line of text."""
 HEAD = 0.1
 """Half an arrowhead."""
-NUMBERED, NAMED = 4, 3
+_NUMBERED, _NAMED = 4, 3
 """Values beside each other, by their numbers and by their names; a block of more has several lines."""
 
 Signal = tuple[float, str]
@@ -39,7 +39,7 @@ def draw_loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | No
     axis, _, percent = part.partition("@")
     figures = ValueReader(file)
     signals = _signals(figures, axis, float(percent or 100.0) / 100.0)
-    diagram = LoopDiagram(figures, roles, axis, signals)
+    diagram = _LoopDiagram(figures, roles, axis, signals)
     x = like.x if like else Scale("", "", 0.0, 10.0, is_written=False)
     y = like.y if like else Scale("", "", 0.0, diagram.height, is_written=False)
     speed = signals.get("command_velocity")
@@ -75,7 +75,7 @@ def _in_units_of(file: ParameterFile, value: float, unit: str) -> Signal:
     return convert(value, unit, inches) if inches != unit else value, inches
 
 
-class LoopDiagram:
+class _LoopDiagram:
     """The rows of a diagram while it is drawn, from the top: command, what is added ahead, the loop, and
     what goes back.
     """
@@ -90,7 +90,7 @@ class LoopDiagram:
         lines = [self._lines(block) for block in rows]
         machine = figures.file.machine_schema
         is_numbered = any(text.address and machine.number(text.address) for each in lines for text in each)
-        self._across = NUMBERED if is_numbered else NAMED
+        self._across = _NUMBERED if is_numbered else _NAMED
         self.height = sum(self._rows(each) + ROOM for each in lines) + ROOM
         top, self._places = self.height - ROOM, dict[str, tuple[float, float]]()
         for block, texts in zip(rows, lines, strict=True):
@@ -117,10 +117,10 @@ class LoopDiagram:
                 sort: ShapeSort = "error" if figure.wrong else "dim" if figure.inactive else "ink"
                 is_alone = len(block.params) == 1 and not block.signal
                 label = figure.label if is_alone else machine.number(figure.address) or name
-                lines.append(Text((NAMES, 0.0), label, text, "left", figure.address, sort))
+                lines.append(Text((_NAMES, 0.0), label, text, "left", figure.address, sort))
         if (signal := self._signals.get(block.signal)) is not None:
             name = block.signal.replace("_", " ").removeprefix("steady ")
-            lines.append(Text((NAMES, 0.0), name, value_text(*signal), "left", sort="now"))
+            lines.append(Text((_NAMES, 0.0), name, value_text(*signal), "left", sort="now"))
         return lines
 
     def _box(self, block: LoopBlock, texts: list[Text], bottom: float, top: float) -> None:
@@ -132,7 +132,7 @@ class LoopDiagram:
         self.shapes.texts.append(Text((middle, 0.5 * (bottom + top)), block.name, "", "middle"))
         for n, text in enumerate(texts):
             row, column = divmod(n, self._across)
-            place = (NAMES + column * (10.0 - NAMES) / self._across, top - row - 0.5)
+            place = (_NAMES + column * (10.0 - _NAMES) / self._across, top - row - 0.5)
             self.shapes.texts.append(Text(place, text.text, text.value, "beside", text.address, text.sort))
 
     def _join(self, rows: list[LoopBlock]) -> None:

@@ -14,11 +14,11 @@ from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pie
 from .figures import DrawnValue, ValueReader, number_of
 from .shapes import SceneShapes
 
-RAMP_MULTIPLE = 1.8
+_RAMP_MULTIPLE = 1.8
 """A move is about so many times as long as its ramps."""
-SAMPLES = 24
+_SAMPLES = 24
 """Points of a curved piece."""
-FADED = 1e-3
+_FADED = 1e-3
 """An exponential ramp is drawn until so much of the move is left."""
 
 
@@ -75,7 +75,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
 def _distance(kinds: Sequence[_Drawn], speed: float) -> float:
     """Return a round distance on which each kind of ramp reaches the speed."""
     ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
-    return round_step(RAMP_MULTIPLE * max(ways, default=speed))
+    return round_step(_RAMP_MULTIPLE * max(ways, default=speed))
 
 
 def _draw_moves(
@@ -276,7 +276,7 @@ def _within_scans(
 
 def _pieces(ramp: Ramp, speed: float, distance: float) -> list[Piece]:
     if ramp.kind == "exponential":
-        return exponential_pieces(distance, [(0.0, speed)], ramp, FADED * distance)
+        return exponential_pieces(distance, [(0.0, speed)], ramp, _FADED * distance)
     return leg(distance, speed, ramp)
 
 
@@ -295,7 +295,7 @@ def sampled(pieces: Sequence[Piece]) -> list[Point]:
     for piece in pieces:
         # Of a straight piece the ends are enough.
         straight = piece.kind == 0.0 and piece.jerk == 0.0
-        count = 1 if straight else SAMPLES
+        count = 1 if straight else _SAMPLES
         points += [
             (start + piece.duration * k / count, piece.velocity_after(piece.duration * k / count))
             for k in range(count + 1)

@@ -38,7 +38,7 @@ class CurveText:
     grain: float
 
 
-def curve_text(file: ParameterFile) -> CurveText | None:
+def _curve_text(file: ParameterFile) -> CurveText | None:
     """Return how the family of a file writes its tables; None where it has none."""
     place = registration_of(file.schema.family.family).curve
     found = load_part(place) if place else None
@@ -47,7 +47,7 @@ def curve_text(file: ParameterFile) -> CurveText | None:
 
 def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | None = None) -> Scene:
     """Return the curve of one table."""
-    figures, form = ValueReader(file), curve_text(file)
+    figures, form = ValueReader(file), _curve_text(file)
     address = (roles.param, axis)
     figures.read[address] = None
     value, letter, label = file.get(address), figures.axis(axis), figures.label(address)

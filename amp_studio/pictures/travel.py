@@ -16,14 +16,14 @@ from .homing import MARGIN, Home, draw_home, draw_rail, letters, read_home
 from .parts import part_name
 from .shapes import SceneShapes
 
-TALL = 1.5
+_TALL = 1.5
 """How many times as long as the travel along x that along y is at most."""
-FORBIDDEN_SIDE = {
+_FORBIDDEN_SIDE = {
     "inside": "entry not allowed",
     "either": "no entry from outside, no exit from inside",
     "outside": "exit not allowed",
 }
-SORTS: dict[str, ShapeSort] = {"inside": "forbidden", "either": "either", "outside": "outside"}
+_SORTS: dict[str, ShapeSort] = {"inside": "forbidden", "either": "either", "outside": "outside"}
 
 
 @dataclass
@@ -61,7 +61,7 @@ def draw_travel(
         return replace(_drawn(file, roles, back if is_turned else axes, like), part="+".join(axes))
     scene = _drawn(file, roles, axes, None)
     # Only with one scale for both axes does a long y make a narrow picture.
-    if not scene.equal or scene.y.high - scene.y.low < TALL * (scene.x.high - scene.x.low):
+    if not scene.equal or scene.y.high - scene.y.low < _TALL * (scene.x.high - scene.x.low):
         return scene
     return replace(_drawn(file, roles, back, None), part="+".join(axes))
 
@@ -321,13 +321,13 @@ def _draw_zone(
     bottom, top = more[0] if more else views[1]
     # Ends in the wrong order are a finding, and still a body to draw.
     left, right, bottom, top = min(left, right), max(left, right), min(bottom, top), max(bottom, top)
-    sort: ShapeSort = "error" if any(ends.wrong for ends in box) else SORTS.get(side, "dim")
+    sort: ShapeSort = "error" if any(ends.wrong for ends in box) else _SORTS.get(side, "dim")
     drawing.areas.append(FilledArea(left, bottom, right, top, sort, zone.name))
     drawing.texts.append(
         Text(
             (left, top),
             zone.name,
-            FORBIDDEN_SIDE.get(side, "which side is forbidden is not set"),
+            _FORBIDDEN_SIDE.get(side, "which side is forbidden is not set"),
             "inside",
             box[0].figures[0].address if box[0].figures[0] else None,
         )

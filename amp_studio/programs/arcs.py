@@ -11,7 +11,7 @@ from .words import ProgramBlockError
 
 CLOSED = 1e-9
 """mm: ends that are nearer are one point."""
-OFF_CIRCLE = 0.01
+_OFF_CIRCLE = 0.01
 """mm by which the end may miss the circle where no tolerance is printed."""
 
 
@@ -62,7 +62,7 @@ def _refuse_off_circle(off: float, radius: float, tolerance: ArcTolerance | None
     is.
     """
     if tolerance is None:
-        if off > OFF_CIRCLE:
+        if off > _OFF_CIRCLE:
             raise ProgramBlockError(
                 f"The end of the arc is {off:.4g} mm off its circle; how they are joined is not printed",
                 "arc-radius",

@@ -16,8 +16,8 @@ from .toolpath import LINE, MAX_ROWS, PLANES, RAPID
 from .word_numbers import BlockNumbers
 from .words import ProgramBlockError, TypedWord
 
-MAX_PECKS = 10_000
-MAX_REPEATS = 10_000
+_MAX_PECKS = 10_000
+_MAX_REPEATS = 10_000
 
 
 @dataclass
@@ -91,8 +91,8 @@ class CycleHole:
         peck = self.words.peck
         if peck is None or peck <= 0.0:
             raise ProgramBlockError("The cycle needs Q, the depth of a peck, above 0", "no-number")
-        if (self.level - self.depth) / peck > MAX_PECKS:
-            raise ProgramBlockError(f"The cycle needs more than {MAX_PECKS} pecks")
+        if (self.level - self.depth) / peck > _MAX_PECKS:
+            raise ProgramBlockError(f"The cycle needs more than {_MAX_PECKS} pecks")
         between = [*takewhile(lambda step: step != "again to the depth", steps)]
         at = self.level
         while True:
@@ -149,8 +149,8 @@ class CycleRuns:
         known = self._codes.known[TypedWord(modal.cycle[0], modal.cycle[1:], "").code]
         *_, third = (self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
         repeats = int(words.roles.get("repeats", 1.0))
-        if not 1 <= repeats <= MAX_REPEATS:
-            raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MAX_REPEATS} times")
+        if not 1 <= repeats <= _MAX_REPEATS:
+            raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {_MAX_REPEATS} times")
         hole = self._hole(words, modal, known.facts.steps, third, begins=begins)
         # Once for all repeats, and before the first: a word that is missing is refused before anything
         # moves.

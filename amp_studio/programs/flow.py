@@ -12,7 +12,7 @@ from .expression import evaluate
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence, words_of
 
-MAX_CALLS = 10_000
+_MAX_CALLS = 10_000
 """Repeats of one call."""
 MACROS = ("subroutine", "modal-subroutine", "no-subroutine")
 """What the codes do whose words are variables: call once, call after each move, end that."""
@@ -196,8 +196,8 @@ class ProgramFlow:
         label, repeats = numbers.pop("P", None), numbers.pop("L", 1.0)
         if label is None or label != int(label):
             raise BlockError(f"{head} needs P, the number of the subroutine", "no-number")
-        if repeats != int(repeats) or not 1 <= repeats <= MAX_CALLS:
-            raise BlockError(f"L{repeats:g}: a subroutine is called 1 to {MAX_CALLS} times")
+        if repeats != int(repeats) or not 1 <= repeats <= _MAX_CALLS:
+            raise BlockError(f"L{repeats:g}: a subroutine is called 1 to {_MAX_CALLS} times")
         if other := sorted(set(numbers) - set(self._facts.variables)):
             raise BlockError(f"{other[0]} is no variable of a subroutine", "unknown-word")
         values = {self._facts.variables[letter]: number for letter, number in numbers.items()}

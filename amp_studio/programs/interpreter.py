@@ -28,7 +28,7 @@ from .words import in_capitals, without_blanks, without_open_remark, words_of
 
 MAX_REPEATED = 150_000
 """Blocks that are executed more often than once; a program that needs more counts as one without an end."""
-EVERY = 4096
+_EVERY = 4096
 """Blocks from one report of progress to the next."""
 
 _PLAIN = re.compile(r"(?:[ \t]|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*", re.ASCII)
@@ -167,7 +167,7 @@ class Interpreter:
             flow.at += 1
             self.line = self._moves.line = flow.at
             self.blocks += 1
-            if self.blocks % EVERY == 0 and progress is not None:
+            if self.blocks % _EVERY == 0 and progress is not None:
                 progress(self.blocks)
             # Only what is repeated counts: a long program without a loop is as long as it is.
             if max(self.blocks - count - MAX_REPEATED, rows.count - MAX_ROWS) > 0:

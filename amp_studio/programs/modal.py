@@ -17,11 +17,11 @@ from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence
 
 _T = TypeVar("_T")
-MAX_SHAPES = 1000
+_MAX_SHAPES = 1000
 """Combinations of codes and states whose meaning is kept."""
-MOTIONS = ("rapid", "line", "arc-cw", "arc-ccw")
+_MOTIONS = ("rapid", "line", "arc-cw", "arc-ccw")
 OFF = {"no-scale": "scale", "no-turn": "turn", "no-length": "length"}
-SELECTS = {"work-system", "machine-system", "length-plus", "length-minus", *OFF}
+_SELECTS = {"work-system", "machine-system", "length-plus", "length-minus", *OFF}
 _CORNERS = {"cutting": CUTTING, "slow-corners": SLOW, "exact": EXACT, "exact-path": KEPT, "blend": ROUNDED}
 _PLANE_OF = {"plane-xy": 0, "plane-zx": 1, "plane-yz": 2}
 _EFFECTS: Mapping[str, Mapping[str, Any]] = {
@@ -34,7 +34,7 @@ _EFFECTS: Mapping[str, Mapping[str, Any]] = {
     "wait-motion": {"waits": True},
 }
 """What a code does -> what the block then is."""
-_OF_NO_AXIS = {"nothing", "zones", *SELECTS, *_EFFECTS}
+_OF_NO_AXIS = {"nothing", "zones", *_SELECTS, *_EFFECTS}
 """Codes without a group that leave the words of the axes to the others."""
 
 
@@ -127,7 +127,7 @@ class ModalCodes:
         # A program has few shapes of blocks: what codes do in a state is worked out once for each.
         codes = self._known_blocks.get((written, self.now.key))
         if codes is None:
-            if len(self._known_blocks) > MAX_SHAPES:
+            if len(self._known_blocks) > _MAX_SHAPES:
                 self._known_blocks.clear()
             codes = self._known_blocks[written, self.now.key] = self._codes_of(written)
         self.now = codes.modal
@@ -201,7 +201,7 @@ class ModalCodes:
         return known[code]
 
     def _refuse_motion_in_cycle(self, codes: Sequence[KnownCode], modal: ModalState) -> None:
-        motion = next((code for code in codes if code.facts.does in MOTIONS), None)
+        motion = next((code for code in codes if code.facts.does in _MOTIONS), None)
         if motion and modal.cycle and modal.cycle == self.now.cycle:
             raise BlockError(
                 f"{motion.code} comes while {self.now.cycle} is active; which one counts is not"
@@ -221,7 +221,7 @@ class ModalCodes:
         self._states[key] = ModalState(
             key,
             dict(active),
-            _first_of(dict(zip(MOTIONS, MOTIONS, strict=True)), does, ""),
+            _first_of(dict(zip(_MOTIONS, _MOTIONS, strict=True)), does, ""),
             cycle if isinstance(cycle, str) else "",
             _first_of(_PLANE_OF, does, 0),
             self._corner(does),
@@ -251,7 +251,7 @@ def _first_of(values: Mapping[str, _T], names: Container[str], otherwise: _T) ->
 def _effects(codes: Sequence[KnownCode]) -> dict[str, Any]:
     """Return the fields of `BlockCodes` that codes set."""
     does = {str(code.facts.does): code for code in codes}
-    selects = tuple(code for code in codes if code.facts.does in SELECTS)
+    selects = tuple(code for code in codes if code.facts.does in _SELECTS)
     pauses = tuple(code.facts.pause for code in codes if code.facts.pause)
     effects: dict[str, Any] = {"zones": does.get("zones"), "selects": selects, "pauses": pauses}
     for each in does:
@@ -270,7 +270,7 @@ def _sole_effect(codes: Sequence[KnownCode]) -> str:
     ]
     if len(taking) > 1:
         raise BlockError(f"{taking[1].code} and another code that takes the words of the axes", "two-motions")
-    moves = [code for code in codes if code.facts.does in MOTIONS]
+    moves = [code for code in codes if code.facts.does in _MOTIONS]
     if taking and moves and taking[0].facts.does != "dwell":
         raise BlockError(
             f"{taking[0].code} and {moves[0].code} both take the words of the axes", "two-motions"

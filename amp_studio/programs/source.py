@@ -16,12 +16,12 @@ from amp_studio.schema import quoted
 
 from .words import LONGEST, ProgramBlockError
 
-MAX_BYTES = 100_000_000
+_MAX_BYTES = 100_000_000
 """Of a file, counted in characters; a million blocks have about 30 million."""
-MAX_LINES = 2_000_000
+_MAX_LINES = 2_000_000
 IN_MEMORY = 1 << 18
 """Bytes of a program that need no temporary file."""
-TOGETHER = 512
+_TOGETHER = 512
 """Lines that are read from it at once."""
 
 
@@ -32,12 +32,12 @@ class ProgramLines(Sequence[str]):
         self._file = SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115  # as long as the lines are
         weakref.finalize(self, self._file.close)
         self._places, self._count = array("q"), 0
-        """Of each `TOGETHER` lines in the file."""
+        """Of each `_TOGETHER` lines in the file."""
         self._read: tuple[int, list[str]] = (-1, [])
         # A run that was stopped may still read while the next one begins.
         self._lock = threading.Lock()
         coming = iter(lines)
-        while part := list(islice(coming, TOGETHER)):
+        while part := list(islice(coming, _TOGETHER)):
             self._places.append(self._file.tell())
             with in_temporary_folder():
                 self._file.write("".join(f"{line}\n" for line in part).encode("utf-8", "surrogatepass"))
@@ -56,9 +56,9 @@ class ProgramLines(Sequence[str]):
         if isinstance(place, slice):
             return [self[n] for n in range(*place.indices(self._count))]
         part, lines = self._read
-        if part != place // TOGETHER:
-            lines = self._part(range(self._count)[place] // TOGETHER)
-        return lines[place % TOGETHER if place >= 0 else (place + self._count) % TOGETHER]
+        if part != place // _TOGETHER:
+            lines = self._part(range(self._count)[place] // _TOGETHER)
+        return lines[place % _TOGETHER if place >= 0 else (place + self._count) % _TOGETHER]
 
     def __iter__(self) -> Iterator[str]:
         for part in range(len(self._places) - 1):
@@ -97,9 +97,9 @@ def _lines(path: Path, *, is_plain: bool) -> Iterator[str]:
                 )
             if "\0" in part:
                 raise ProgramBlockError(f"{name} is no text: there is a zero byte in line {count + 1}")
-            if gone > MAX_BYTES or count >= MAX_LINES:
+            if gone > _MAX_BYTES or count >= _MAX_LINES:
                 raise ProgramBlockError(
-                    f"{name} is longer than {MAX_LINES} lines or {MAX_BYTES // 1_000_000} MB"
+                    f"{name} is longer than {_MAX_LINES} lines or {_MAX_BYTES // 1_000_000} MB"
                 )
             yield part.strip(" \t\r\n").replace("\r", " ")
             count += 1

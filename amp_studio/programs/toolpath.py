@@ -20,7 +20,7 @@ path, or rounds its corner."""
 PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 """Plane XY, ZX, YZ: places of its two axes and of the third one among X, Y, Z."""
 MAX_ROWS = 4_000_000
-MAX_ROUNDINGS = 200
+_MAX_ROUNDINGS = 200
 """Different ones in a program; a row has a byte for its own."""
 COLUMNS = (
     "ends",
@@ -63,7 +63,7 @@ class Rounding:
     """From points that one straight move replaces."""
 
 
-NO_ROUNDING = Rounding()
+_NO_ROUNDING = Rounding()
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class RowsWriter:
 
     def __init__(self, axes: tuple[str, ...], start: Sequence[float]) -> None:
         self._axes, self._start = axes, list(start)
-        self.roundings: list[Rounding] = [NO_ROUNDING]
+        self.roundings: list[Rounding] = [_NO_ROUNDING]
         self.active = 0
         """Place of the rounding of the next rows."""
         self.zone_sets: list[tuple[str, ...] | None] = [None]
@@ -193,8 +193,8 @@ class RowsWriter:
     def round_by(self, rounding: Rounding) -> None:
         """Round the corners of the next rows by this."""
         if rounding not in self.roundings:
-            if len(self.roundings) > MAX_ROUNDINGS:
-                raise ProgramBlockError(f"More than {MAX_ROUNDINGS} kinds of G64 in one program")
+            if len(self.roundings) > _MAX_ROUNDINGS:
+                raise ProgramBlockError(f"More than {_MAX_ROUNDINGS} kinds of G64 in one program")
             self.roundings.append(rounding)
         self.active = self.roundings.index(rounding)
 

@@ -64,7 +64,7 @@ def print_report(
     if path.suffix.lower() not in _WITH_TEMPLATES:  # tables and texts have no place for a drawing
         contents = replace(contents, without=contents.without | {"pictures"})
     folder = real_path(source).parent if source else None
-    project = project_beside(source)
+    project = _project_beside(source)
     report = build_report(file, contents, source=source, project=project, date=date, own=own, added=added)
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     # Nothing is lost with the one before: a report is made again at any time.
@@ -91,7 +91,9 @@ def set_report(
 
     Raises ReportNotMadeError, and ParameterFileError for a project that cannot be read.
     """
-    report = build_report(file, contents, source=source, project=project_beside(source), own=own, added=added)
+    report = build_report(
+        file, contents, source=source, project=_project_beside(source), own=own, added=added
+    )
     template = own_template(real_path(source).parent, "report.typ.j2")
     try:
         source_text, marks, *pages = made_apart("pages", report, template, ppi)
@@ -117,7 +119,7 @@ def _rendered(report: Report, ending: str, folder: Path | None) -> tuple[bytes, 
     return FORMATS[ending](report), mistake
 
 
-def project_beside(source: Path | None) -> ProjectInfo | None:
+def _project_beside(source: Path | None) -> ProjectInfo | None:
     """Return the content of ``project.yaml`` beside a file; None where there is none.
     Raises ParameterFileError.
     """

@@ -58,7 +58,7 @@ def _reports_a_fault(record: logging.LogRecord) -> bool:
 
 logging.getLogger("cel").addFilter(_reports_a_fault)
 
-LANGUAGE_FUNCTIONS = frozenset(
+_LANGUAGE_FUNCTIONS = frozenset(
     {
         "size",
         "contains",
@@ -106,4 +106,4 @@ _OPERATOR = re.compile(r"[^a-zA-Z]")
 def functions_called(compiled: Program) -> frozenset[str]:
     """Return the functions an expression calls that the language itself does not have."""
     named = {name for name in compiled.references()["functions"] if not _OPERATOR.match(name)}
-    return frozenset(named - LANGUAGE_FUNCTIONS)
+    return frozenset(named - _LANGUAGE_FUNCTIONS)

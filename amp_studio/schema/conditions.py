@@ -47,7 +47,7 @@ class StateInfo(NamedTuple):
 
 
 ACTIVE = StateInfo("in-force")
-READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")
+_READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -193,7 +193,7 @@ class Conditions:
             condition = self._schema.family.conditions[asked]
             info = StateInfo(rule.state, condition.why, rule.page or condition.page)
             steps.append((asked, rule.when is not None, info))
-        return tuple(steps), READ_ONLY if parameter.access == "read" else ACTIVE
+        return tuple(steps), _READ_ONLY if parameter.access == "read" else ACTIVE
 
     def _planned(self, address: Address) -> StatePlan:
         """Return how the state of an address is found: one object for all that ask the same."""

@@ -35,7 +35,7 @@ from .model import (
 )
 from .model.compiled_json import record_text
 
-NOT_AT_CONTROL = "not_here"
+_NOT_AT_CONTROL = "not_here"
 """The condition by which a known parameter is hidden that the control does not list."""
 _QUANTITIES = {
     "mm": "length",
@@ -174,7 +174,7 @@ class DescribedSchema:
             pictures=known.pictures,
         )
         not_at_control = Condition(when="true", why="this control does not have the setting")
-        conditions = family.conditions | {NOT_AT_CONTROL: not_at_control}
+        conditions = family.conditions | {_NOT_AT_CONTROL: not_at_control}
         compiled = Compiled(
             family=family.model_copy(update={"groups": tuple(self._groups), "conditions": conditions}),
             groups=made,
@@ -256,7 +256,7 @@ class DescribedSchema:
         if layout is None:
             return parameter.model_copy(update={"layouts": (), "default": None, "page": page})
         if layout.numbers is None or not self._described.stays(parameter, frozenset(self._ids)):
-            state = StateRule(state="hidden", when=NOT_AT_CONTROL, page=page)
+            state = StateRule(state="hidden", when=_NOT_AT_CONTROL, page=page)
             bare = layout.model_copy(update={"instances": None, "numbers": None})
             return parameter.model_copy(
                 update={"layouts": (bare,), "states": (state,), "default": None, "page": page}

@@ -30,7 +30,7 @@ UNITS: dict[str, tuple[str, Fraction]] = {}
 """Unit -> what it measures, and the factor to the canonical unit of that."""
 ALIASES: dict[str, str] = {}
 """How people write them -> the unit."""
-SHOWN: dict[str, str] = {}
+_SHOWN: dict[str, str] = {}
 """Unit -> how it is shown, if that is otherwise than it is written."""
 
 
@@ -71,7 +71,7 @@ def define_unit(
     UNITS[unit] = meaning
     ALIASES.update(dict.fromkeys(also, unit))
     if display:
-        SHOWN[unit] = display
+        _SHOWN[unit] = display
         ALIASES.setdefault(display, unit)
 
 
@@ -168,4 +168,4 @@ def angular(unit: str) -> str:
 
 def unit_text(unit: str) -> str:
     """Return the unit as it is shown to a person."""
-    return SHOWN.get(unit, unit)
+    return _SHOWN.get(unit, unit)

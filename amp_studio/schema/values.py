@@ -43,7 +43,7 @@ EXACT = 2**53 - 1
 _LARGEST = sys.float_info.max
 _PLAIN: tuple[type[bool] | type[int] | type[float] | type[str], ...] = (bool, int, float, str)
 """Types of what a file contains; what is made after one of them (numpy.float64) becomes it."""
-LONGEST_TEXT = 100_000
+_LONGEST_TEXT = 100_000
 """Characters of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
 _NOT_ZERO = re.compile(r"[^eE]*[1-9]")
@@ -189,9 +189,9 @@ def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
     """Return a text, a format or a choice as it is stored; raises InvalidValueError."""
     if parameter.type in ("integer", "real", "bits"):
         raise InvalidValueError(f"{parameter.name} is a number, and {quoted(found)} is none")
-    if len(found) > LONGEST_TEXT:
+    if len(found) > _LONGEST_TEXT:
         raise InvalidValueError(
-            f"{parameter.name} has {len(found):,} characters, and {LONGEST_TEXT:,} are the most"
+            f"{parameter.name} has {len(found):,} characters, and {_LONGEST_TEXT:,} are the most"
         )
     if odd := _UNWRITABLE.search(found):
         raise InvalidValueError(

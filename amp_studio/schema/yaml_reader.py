@@ -22,7 +22,7 @@ from amp_studio.errors import AmpStudioError
 
 from .quoting import quoted
 
-DEEPEST = 50
+_DEEPEST = 50
 """Collections in each other."""
 LARGEST = 16_000_000
 """Characters of a document; the largest machine of the examples has 36,000."""
@@ -246,8 +246,10 @@ class _YamlParser:
             text = event.value
             return self.scalar(text) if event.implicit[0] else text, event.end_mark.index
         self.depth += 1
-        if self.depth > DEEPEST:
-            raise self._error(f"is not readable: more than {DEEPEST} lists and mappings in each other", event)
+        if self.depth > _DEEPEST:
+            raise self._error(
+                f"is not readable: more than {_DEEPEST} lists and mappings in each other", event
+            )
         data: Any
         data, end = (
             self._mapping(event, events, path)
@@ -341,13 +343,13 @@ def typed_scalar(text: str) -> Any:
     return text
 
 
-class SpelledInt(int):
+class _SpelledInt(int):
     """A whole number that is written otherwise than Python writes it: 007, 0x1F."""
 
     spelling = ""
 
 
-class SpelledFloat(float):
+class _SpelledFloat(float):
     """A number that is written otherwise than Python writes it: a version 1.10."""
 
     spelling = ""
@@ -358,6 +360,6 @@ def spelled_scalar(text: str) -> Any:
     found = typed_scalar(text)
     if isinstance(found, (str, bool)) or found is None or repr(found) == text:
         return found
-    number = SpelledInt(found) if isinstance(found, int) else SpelledFloat(found)
+    number = _SpelledInt(found) if isinstance(found, int) else _SpelledFloat(found)
     number.spelling = text
     return number

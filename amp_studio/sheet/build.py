@@ -19,7 +19,7 @@ class SheetError(AmpStudioError, ValueError):
     """Two files of which no sheet can be made; one clear sentence."""
 
 
-def with_source(finding: Finding) -> str:
+def _with_source(finding: Finding) -> str:
     """Return the message of a finding and where it is from."""
     return finding.message + (f" ({finding.cited})" if finding.cited else "")
 
@@ -44,7 +44,7 @@ def make_sheet(
     against: str = "",
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
-    message: Callable[[Finding], str] = with_source,
+    message: Callable[[Finding], str] = _with_source,
 ) -> Sheet:
     """Return what has to be keyed in at a control that contains ``present`` so that it contains ``wanted``.
 

@@ -92,7 +92,7 @@ def plain_text(file: ParameterFile, address: Address, value: Value) -> Keyed | N
     if stored is not None:
         unit = stored_unit(parameter, turns=turns)
         is_rounded = exact(stored) != to_stored(parameter, value, unit)
-        return Keyed(plain_digits(stored), unit_text(unit), is_rounded=is_rounded)
+        return Keyed(_plain_digits(stored), unit_text(unit), is_rounded=is_rounded)
     if parameter.choices:
         return Keyed(label_of(parameter, choice_key(value)))
     if isinstance(value.value, str):
@@ -100,23 +100,23 @@ def plain_text(file: ParameterFile, address: Address, value: Value) -> Keyed | N
     unit = file.evaluation.unit(address, file.header.units)
     try:
         return Keyed(
-            plain_digits(shown_number(parameter, to_stored(parameter, value, unit))), unit_text(unit)
+            _plain_digits(shown_number(parameter, to_stored(parameter, value, unit))), unit_text(unit)
         )
     except StorageError:
-        return Keyed(plain_digits(value.value), unit_text(value.unit))
+        return Keyed(_plain_digits(value.value), unit_text(value.unit))
 
 
-def plain_digits(number: float) -> str:
+def _plain_digits(number: float) -> str:
     """Return a number as keys take it: shortest round trip, never with an exponent."""
     return format(Decimal(write_number(number)), "f")
 
 
-def nothing_left_out(_file: ParameterFile, _address: Address) -> str:
+def _nothing_left_out(_file: ParameterFile, _address: Address) -> str:
     """Return no reason why a value could not be keyed in."""
     return ""
 
 
-def one_stage(_before: ParameterFile, _after: ParameterFile, _address: Address) -> int:
+def _one_stage(_before: ParameterFile, _after: ParameterFile, _address: Address) -> int:
     """Return the only stage."""
     return 0
 
@@ -135,10 +135,10 @@ class Keying:
     """
 
     title: str = "Sheet for entering values"
-    obstacle: Callable[[ParameterFile, Address], str] = nothing_left_out
+    obstacle: Callable[[ParameterFile, Address], str] = _nothing_left_out
     text: Callable[[ParameterFile, Address, Value], Keyed | None] = plain_text
     stages: tuple[Stage, ...] = (Stage(""),)
-    stage: Callable[[ParameterFile, ParameterFile, Address], int] = one_stage
+    stage: Callable[[ParameterFile, ParameterFile, Address], int] = _one_stage
     before: tuple[Instruction, ...] = ()
     after: tuple[Instruction, ...] = ()
 

@@ -68,7 +68,7 @@ def cam_figures(cam: CamProfile) -> dict[str, Figure]:
     """Return what a cam is and asks for: travel, length, greatest speed and acceleration of a time cam,
     greatest slope of one over a master.
     """
-    speed, acceleration = derivatives(cam)
+    speed, acceleration = _derivatives(cam)
     found = {**cam.figures, "travel": (float(np.ptp(cam.position)), "counts")}
     if cam.over == "master":
         return {
@@ -84,7 +84,7 @@ def cam_figures(cam: CamProfile) -> dict[str, Figure]:
     }
 
 
-def derivatives(cam: CamProfile) -> tuple[Series, Series]:
+def _derivatives(cam: CamProfile) -> tuple[Series, Series]:
     """Return speed between the points and acceleration at the points between, over time or the master."""
     step = np.diff(cam.x)
     speed = np.diff(cam.position) / step
@@ -94,7 +94,7 @@ def derivatives(cam: CamProfile) -> tuple[Series, Series]:
 
 def cam_picture(cam: CamProfile) -> Picture:
     """Return position, speed and acceleration of a cam over time, or position and slope over the master."""
-    speed, acceleration = derivatives(cam)
+    speed, acceleration = _derivatives(cam)
     x = ("time", "s") if cam.over == "time" else ("master", "counts")
     per, unit = ("s", "s²") if cam.over == "time" else ("count", "count²")
     position = panel_of("position counts", (Curve("", cam.x, cam.position, "now", dots=False),), x)

@@ -14,7 +14,7 @@ from .cam import CamPoints
 from .errors import SimulationError
 from .identification.drive_record import named_columns, read_number_table, seconds_of
 
-MAX_POINTS = 100_000
+_MAX_POINTS = 100_000
 _COLUMNS = {
     "time": "time|t|zeit",
     "master": "master( position)?|leitachse",
@@ -32,8 +32,8 @@ def read_cam_points(path: Path) -> CamPoints:
     if over not in places or "position" not in places:
         raise SimulationError(f"{name}: it needs the columns position and time, or position and master")
     x, position = read_number_table(text, [places[over][0], places["position"][0]])
-    if not 2 <= len(x) <= MAX_POINTS:
-        raise SimulationError(f"{name}: a cam has 2 to {MAX_POINTS} points, not {len(x)}")
+    if not 2 <= len(x) <= _MAX_POINTS:
+        raise SimulationError(f"{name}: a cam has 2 to {_MAX_POINTS} points, not {len(x)}")
     if not (np.diff(x) > 0.0).all():
         raise SimulationError(f"{name}: its {over} does not rise from row to row")
     for column in ("master", "position"):

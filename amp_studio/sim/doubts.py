@@ -11,7 +11,7 @@ from amp_studio.guide import present
 from amp_studio.schema import Address
 from amp_studio.validate import Finding, Validator
 
-MAX_LISTED = 8
+_MAX_LISTED = 8
 """Findings that are listed one by one."""
 
 
@@ -27,10 +27,10 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     addresses = dict.fromkeys(address for address in read if address[0] in own_ids)
     validator = Validator(file)
     own = [f for f in _errors(validator.run()) if not addresses.keys().isdisjoint(f.addresses)]
-    doubts_of_findings = [finding.message for finding in own[:MAX_LISTED]]
+    doubts_of_findings = [finding.message for finding in own[:_MAX_LISTED]]
     left = _errors(present(validator, validator.findings()).findings)
     # Those that are shown, as `validate` counts them: most that follow from an earlier error are not.
-    others = len(own[MAX_LISTED:]) + sum(finding not in own for finding in left)
+    others = len(own[_MAX_LISTED:]) + sum(finding not in own for finding in left)
     if others:
         doubts_of_findings.append(
             f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is"

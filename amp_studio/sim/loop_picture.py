@@ -19,12 +19,12 @@ from .series import Response, Series
 from .trace import Trace
 from .tuning.loops import SOUND
 
-NYQUIST_SIDE, NYQUIST_CENTRE = 1.6, (-0.6, -0.4)
+_NYQUIST_SIDE, _NYQUIST_CENTRE = 1.6, (-0.6, -0.4)
 """Half a side of the part of the plane around -1 that is drawn: farther out a loop is of no interest."""
-NICHOLS_GAIN, NICHOLS_PHASE = (-40.0, 40.0), (-360.0, 0.0)
-MIN_SENSITIVITY = -30.0
+_NICHOLS_GAIN, _NICHOLS_PHASE = (-40.0, 40.0), (-360.0, 0.0)
+_MIN_SENSITIVITY = -30.0
 """dB below which it is drawn flat: the scale is for the peak."""
-ROUND = 181
+_ROUND = 181
 """Points of a circle."""
 _EMPTY = ""
 
@@ -34,8 +34,8 @@ Along = Callable[[Response], tuple[Series, Series]]
 
 def nyquist(trace: Trace, before: Trace | None) -> Picture:
     """Return the loop in the complex plane."""
-    (x, y), side = NYQUIST_CENTRE, NYQUIST_SIDE
-    circle = np.exp(1j * np.linspace(0.0, 2.0 * math.pi, ROUND))
+    (x, y), side = _NYQUIST_CENTRE, _NYQUIST_SIDE
+    circle = np.exp(1j * np.linspace(0.0, 2.0 * math.pi, _ROUND))
     across = Scale("real part", _EMPTY, x - side, x + side)
     up = Scale("imaginary part", _EMPTY, y - side, y + side)
     curves = (
@@ -73,8 +73,8 @@ def nichols(trace: Trace, before: Trace | None) -> Picture:
         # Not unwrapped: the whole area around -1 lies between -360 and 0 deg, the turn of the chart.
         return np.degrees(np.angle(loop)) % 360.0 - 360.0, 20.0 * np.log10(np.abs(loop) + 1e-300)
 
-    across = Scale("phase", "deg", *NICHOLS_PHASE, step=90.0)
-    up = Scale(_EMPTY, "dB", *NICHOLS_GAIN)
+    across = Scale("phase", "deg", *_NICHOLS_PHASE, step=90.0)
+    up = Scale(_EMPTY, "dB", *_NICHOLS_GAIN)
     scene = Scene(
         "nichols",
         _EMPTY,
@@ -94,7 +94,7 @@ def nichols(trace: Trace, before: Trace | None) -> Picture:
 
 def _sound(along: Along) -> Curve:
     """Return the edge of the area that a sound loop stays out of."""
-    edge = -1.0 + np.exp(1j * np.linspace(0.0, 2.0 * math.pi, ROUND)) / SOUND.sensitivity
+    edge = -1.0 + np.exp(1j * np.linspace(0.0, 2.0 * math.pi, _ROUND)) / SOUND.sensitivity
     return Curve(f"Ms {value_text(SOUND.sensitivity)}", *along(edge), "limit")
 
 
@@ -139,7 +139,7 @@ def _sensitivity(trace: Trace, before: Trace | None) -> Scene:
         if each is not None and f"{loop_name}_gain_db_model" in each.columns:
             frequency, loop = _loop(each, "_model", loop_name)
             # Minus, because it is the reciprocal in dB; where 1 + L is 0 the addend keeps it finite.
-            size = np.maximum(-20.0 * np.log10(np.abs(1.0 + loop) + 1e-300), MIN_SENSITIVITY)
+            size = np.maximum(-20.0 * np.log10(np.abs(1.0 + loop) + 1e-300), _MIN_SENSITIVITY)
             curves.append(Curve(words, frequency, size, sort))
     at = trace.result.get("Ms_frequency", (None, ""))[0]
     marks = () if at is None else (NamedPlace(f"Ms {value_text(at, 'Hz', 3)}", at),)
@@ -148,7 +148,7 @@ def _sensitivity(trace: Trace, before: Trace | None) -> Scene:
     return panel_of("sensitivity", curves, along, "dB", levels=(level,), marks=marks, log=True, share=1.2)
 
 
-MAX_MS = 4.0
+_MAX_MS = 4.0
 """Where the scale of Ms ends: beyond it a loop is all but unstable."""
 
 
@@ -168,7 +168,7 @@ def tuned(trace: Trace) -> Picture:
         if known.any():
             ways.append(Curve(words, time[known], way[known], sort))
         # In pieces: a line through the inertias without a stable loop would show Ms where there is none.
-        stable = np.isfinite(ms) & (ms < MAX_MS)
+        stable = np.isfinite(ms) & (ms < _MAX_MS)
         edges = np.flatnonzero(np.diff(np.concatenate([[0], stable.astype(np.int8), [0]])))
         for n, (first, last) in enumerate(zip(edges[::2], edges[1::2], strict=True)):
             robust.append(Curve(words if n == 0 else _EMPTY, share[first:last], ms[first:last], sort))
@@ -180,7 +180,7 @@ def tuned(trace: Trace) -> Picture:
         "Ms over the inertia",
         _EMPTY,
         Scale("inertia, 1 as it is taken to be", _EMPTY, float(share[0]), float(share[-1]), log=True),
-        Scale(_EMPTY, _EMPTY, 1.0, MAX_MS),
+        Scale(_EMPTY, _EMPTY, 1.0, _MAX_MS),
         curves=tuple(robust),
         levels=(NamedPlace(f"Ms {value_text(SOUND.sensitivity)}", SOUND.sensitivity),),
         marks=(NamedPlace(_EMPTY, 1.0),),

@@ -28,17 +28,17 @@ from .tuning.loops import SOUND, Loops
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
 NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
-WORSE = ("not possible", "good", "doubtful", "bad")
-ONE_END = "Only one end of the travel has a limit"
-AHEAD_SHARE = 0.5
+_WORSE = ("not possible", "good", "doubtful", "bad")
+_ONE_END = "Only one end of the travel has a limit"
+_AHEAD_SHARE = 0.5
 """Share of its travel from which an axis has its switch ahead; near an end it is almost all or nothing."""
-ASKED = {"home": "homing", "jog": "jogging", "travel": "travel"}
+_ASKED = {"home": "homing", "jog": "jogging", "travel": "travel"}
 """Scenario -> the part of an axis that reads its parameters."""
-RATES = ("feedrate", "acceleration", "linear_acceleration")
+_RATES = ("feedrate", "acceleration", "linear_acceleration")
 LIMITS = ("torque_limit_positive", "torque_limit_negative")
-EVERY = "every"
+_EVERY = "every"
 """Name of the one check of an axis that no scenario can move."""
-PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
+_PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ def _unmade(file: ParameterFile, law: Law, axis: str) -> MotionCheck | None:
     try:
         bind_axis(file, law, axis)
     except SimulationError as error:
-        return _not_possible(file, law, EVERY, axis, error)
+        return _not_possible(file, law, _EVERY, axis, error)
     return None
 
 
@@ -133,7 +133,7 @@ def _not_possible(
     file: ParameterFile, law: Law, scenario: str, axis: str | None, error: SimulationError
 ) -> MotionCheck:
     named = (error.parameter,) if error.parameter in file.schema.parameters else ()
-    read = named or (_asked(file, law, scenario, axis) if axis and scenario in ASKED else ())
+    read = named or (_asked(file, law, scenario, axis) if axis and scenario in _ASKED else ())
     known = {**SCENARIOS, **law.own()}.get(scenario)
     part: CheckPart = known.part if known else "following"
     return MotionCheck(
@@ -175,13 +175,13 @@ def _judged(
     instance, letter = axis or "", _letter_of(file, axis)
     # The worse end of the travel decides.
     found = [(*_verdict(trace), trace) for trace, _, _ in runs]
-    verdict, why, decided = max(found, key=lambda each: WORSE.index(each[0]))
+    verdict, why, decided = max(found, key=lambda each: _WORSE.index(each[0]))
     stops_at = bind_axis(file, law, instance).stops_at if instance else ""
     loops = Loops(bind_axis(file, law, decided.axis)) if scenario.name in SHOWN_BY else None
     if verdict == "good":
         verdict, why = _seen_from_outside(file, law, scenario, instance, decided, loops)
     if verdict == "good" and scenario.opposite and len(runs) == 1:
-        verdict, why = "doubtful", ONE_END
+        verdict, why = "doubtful", _ONE_END
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
     figures, alarms, notes = dict[str, Figure](), list[Alarm](), dict[str, None]()
@@ -280,7 +280,9 @@ def _run(file: ParameterFile, scenario: Scenario, axis: str | None) -> tuple[Tra
         if error.parameter not in scenario.programmed:
             raise
     given = ", ".join(f"{name} {value}" for name, value in scenario.programmed.items())
-    return simulate(file, scenario.name, axis, scenario.programmed, advise=False), (PROGRAMMED.format(given),)
+    return simulate(file, scenario.name, axis, scenario.programmed, advise=False), (
+        _PROGRAMMED.format(given),
+    )
 
 
 def _verdict(trace: Trace) -> tuple[Verdict, str]:
@@ -328,7 +330,7 @@ def _of_direction(axis: AxisLaw, trace: Trace) -> tuple[Verdict, str]:
         return "good", ""
     switch = home - gone + trace.course.switch[0]
     share = (switch - begin if sign > 0.0 else end - switch) / (end - begin)
-    if share >= AHEAD_SHARE:
+    if share >= _AHEAD_SHARE:
         return "good", ""
     place, first, last = (value_text(each, axis.unit) for each in (switch, begin, end))
     return "doubtful", (
@@ -353,14 +355,14 @@ def _parameters(file: ParameterFile, law: Law, trace: Trace) -> tuple[str, ...]:
         return _asked(file, law, "home", trace.axis)
     bound = bind_axis(file, law, trace.axis)
     # An axis that does not stop has a loop that is not stable, or too little torque for its speed.
-    wanted = (*bound.gains, *RATES, *(LIMITS if trace.scenario == "travel" else ()))
+    wanted = (*bound.gains, *_RATES, *(LIMITS if trace.scenario == "travel" else ()))
     return tuple(dict.fromkeys(bound.sources[name].parameter for name in wanted if name in bound.sources))
 
 
 def _asked(file: ParameterFile, law: Law, scenario: str, axis: str) -> tuple[str, ...]:
     """Return the parameters that homing, jog or travel of an axis are made of, as they are read."""
     read: list[Address] = []
-    part = getattr(bind_axis(file, law, axis, on_read=read.append), ASKED[scenario])
+    part = getattr(bind_axis(file, law, axis, on_read=read.append), _ASKED[scenario])
     read.clear()
     with suppress(SimulationError):
         if part is not None:

@@ -101,10 +101,10 @@ CornerRule = Callable[[Corners], Sequence[tuple[PathLimit, PathRows]]]
 """rule(corners) -> the highest speeds (n,) in u/s by what bounds them; infinite where it does not."""
 
 
-STRAIGHT = 1e-9
+_STRAIGHT = 1e-9
 """Change of direction below which an axis goes on evenly."""
 LINEAR = Ramp("linear")
-NO_STEP = PathLimit(0.0, None, "no velocity step")
+_NO_STEP = PathLimit(0.0, None, "no velocity step")
 
 
 def steps_of_axes(steps: Mapping[str, PathLimit]) -> CornerRule:
@@ -116,9 +116,9 @@ def steps_of_axes(steps: Mapping[str, PathLimit]) -> CornerRule:
         change = np.abs(corners.after - corners.before)
         found = []
         for n, axis in enumerate(corners.axes):
-            step, bound = steps.get(axis, NO_STEP), np.full(len(change), np.inf)
+            step, bound = steps.get(axis, _NO_STEP), np.full(len(change), np.inf)
             # An axis that goes straight on sets no bound, and would divide by 0.
-            np.divide(step.value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
+            np.divide(step.value, change[:, n], out=bound, where=change[:, n] > _STRAIGHT)
             found.append((step, bound))
         return found
 

@@ -15,7 +15,7 @@ from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
 from amp_studio.sim.variations.text import best_row
 
-WIDEST = 200
+_WIDEST = 200
 """Values of each side of a map at most; a sweep of more is drawn as samples."""
 
 
@@ -25,7 +25,7 @@ def sweep_picture(trace: Trace) -> Picture:
     sizes = [len(side) for side in sides]
     # Of several values sampled at random hardly one repeats: the product is far above the rows.
     is_grid = math.prod(sizes) == trace.rows and min(sizes, default=0) > 1
-    if is_grid and len(sides) == 2 and max(sizes) <= WIDEST:
+    if is_grid and len(sides) == 2 and max(sizes) <= _WIDEST:
         return _map(trace, sides[0], sides[1])
     if is_grid and len(sides) == 1:
         return _line(trace, sides[0])

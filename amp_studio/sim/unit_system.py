@@ -18,10 +18,10 @@ from .rounding import rounded, value_text
 from .trace import Figure, HomingCourse, PlaneArea, Recommendation, Trace
 
 MM_PER_INCH = 25.4
-LENGTHS = ("mm", "in")
+_LENGTHS = ("mm", "in")
 _IN_TEXT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?) (mm(?:/[a-z0-9]+)*)(?![\w/])")
 """A number and its metric unit in a sentence."""
-DIGITS = 6
+_DIGITS = 6
 """Digits of a converted number in a sentence or a recommendation."""
 
 
@@ -34,7 +34,7 @@ def length_unit(file: ParameterFile, system: str | None = None) -> str:
     if system is not None and system not in systems:
         raise SimulationError(f"Unknown unit system '{system}'. Known: {', '.join(systems)}")
     found = systems.get(system or file.header.units, {}).get("length", "mm")
-    return found if found in LENGTHS else "mm"
+    return found if found in _LENGTHS else "mm"
 
 
 def path_error_unit(length: str) -> tuple[str, float]:
@@ -70,7 +70,7 @@ def in_text(text: str, length: str) -> str:
     if length == "mm":
         return text
     return _IN_TEXT.sub(
-        lambda found: value_text(float(found[1]) / MM_PER_INCH, own_unit(found[2], length), DIGITS), text
+        lambda found: value_text(float(found[1]) / MM_PER_INCH, own_unit(found[2], length), _DIGITS), text
     )
 
 
@@ -141,7 +141,7 @@ def _recommendation(each: Recommendation, length: str) -> Recommendation:
     if unit != each.unit:
         # In a unit of the program, so that ``set`` takes it.
         unit = unit if unit in UNITS else each.unit
-        value = rounded(canonical(value, each.unit) / canonical(1.0, unit), DIGITS)
+        value = rounded(canonical(value, each.unit) / canonical(1.0, unit), _DIGITS)
     return replace(
         each, value=value, unit=unit, why=in_text(each.why, length), price=in_text(each.price, length)
     )

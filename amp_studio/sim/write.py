@@ -17,10 +17,10 @@ from .rounding import value_text
 from .trace import Trace
 from .variations.text import parted, spread_lines, variation_lines, variations_summary
 
-PIXELS_PER_INCH = 144
+_PIXELS_PER_INCH = 144
 """Resolution of a PNG; a point of the SVG is 1/72 inch."""
 
-ENDINGS = (".csv", ".svg", ".png")
+_ENDINGS = (".csv", ".svg", ".png")
 
 
 def trace_csv(trace: Trace) -> str:
@@ -45,7 +45,7 @@ def _heading(trace: Trace) -> list[str]:
     ]
 
 
-def plot_png(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) -> bytes:
+def _plot_png(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) -> bytes:
     """Return the plot as PNG, drawn by Typst; ``before`` is drawn under the trace."""
     import typst  # needed for a PNG only
 
@@ -56,7 +56,7 @@ def plot_png(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) 
     image = typst.compile(
         page.encode(),
         format="png",
-        ppi=PIXELS_PER_INCH,
+        ppi=_PIXELS_PER_INCH,
         sys_inputs={"plot": plot_svg(trace, before, chart=chart)},
     )
     if not isinstance(image, bytes):
@@ -117,10 +117,10 @@ def write_trace(
     elif ending == ".svg":
         content = plot_svg(trace, before, chart=chart).encode()
     elif ending == ".png":
-        content = plot_png(trace, before, chart)
+        content = _plot_png(trace, before, chart)
     else:
         raise SimulationError(
-            f"{path.name}: unknown format of a trace. Use the file extension {', '.join(ENDINGS)}"
+            f"{path.name}: unknown format of a trace. Use the file extension {', '.join(_ENDINGS)}"
         )
     write_atomic(path, content, keep_backup=False, notify=notify)
 

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 from .errors import AtControl
 
-MAX_NAMED = 20
+_MAX_NAMED = 20
 
 
 def _shortened(names: list[str]) -> tuple[str, ...]:
     """Return so many names as a sentence can have, and how many more there are."""
-    more = [f"{len(names) - MAX_NAMED} more"] if len(names) > MAX_NAMED else []
-    return (*names[:MAX_NAMED], *more)
+    more = [f"{len(names) - _MAX_NAMED} more"] if len(names) > _MAX_NAMED else []
+    return (*names[:_MAX_NAMED], *more)
 
 
 def state_after_break(

@@ -13,7 +13,7 @@ from amp_studio.schema import load_part, registered_families, registration_of
 
 from .image import MAGIC, decode_image, encode_image
 
-GENERAL = {MAGIC: "amp_studio.transfer.content:HouseContent"}
+_GENERAL = {MAGIC: "amp_studio.transfer.content:HouseContent"}
 """First line -> how it is read, for the kinds of every family."""
 
 
@@ -124,7 +124,7 @@ def kind_of(content: bytes) -> ContentKind:
     where its first line names no kind that is known.
     """
     family, first = family_of(content), _first_line(content)
-    place = registration_of(family).contents[first] if family else GENERAL[MAGIC]
+    place = registration_of(family).contents[first] if family else _GENERAL[MAGIC]
     kind: ContentKind = load_part(place)()
     return kind
 

@@ -13,9 +13,9 @@ from .exchange import QUIET, Exchange
 from .links import Link
 from .progress import SILENT
 
-SLICE = 0.1  # seconds between two looks at the cancel event
+_SLICE = 0.1  # seconds between two looks at the cancel event
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
-SILENT_EVERY = 1.0
+_SILENT_EVERY = 1.0
 OPERATOR = -1
 """The total of a progress whose stage is a sentence: what a person is to do at the control."""
 
@@ -49,7 +49,7 @@ class Waiting:
             raise CancelledError("stopped")
         now = self.now()
         silent = now - self._received_at
-        if silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+        if silent >= SILENT_AFTER and now - self._notified_at >= _SILENT_EVERY:
             self._notified_at = now
             self.notify(SILENT, round(silent), 0)
 
@@ -75,6 +75,6 @@ class Waiting:
         while True:
             self.look()
             left = end - self.now()
-            data = link.read(max(0.0, min(left, SLICE)))
-            if data or left <= SLICE:
+            data = link.read(max(0.0, min(left, _SLICE)))
+            if data or left <= _SLICE:
                 return data

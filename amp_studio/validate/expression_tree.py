@@ -23,7 +23,7 @@ and a thread has 512 kB."""
 DEEPEST = 100
 """Operations in each other; a sum of 100 numbers is so deep."""
 # The whole numbers of CEL have 64 bits.
-LARGEST_WHOLE = 2**63 - 1
+_LARGEST_WHOLE = 2**63 - 1
 
 MACROS = {"all": (2,), "exists": (2,), "exists_one": (2,), "filter": (2,), "map": (2, 3)}
 """What goes over a list, and how many arguments it takes."""
@@ -358,6 +358,6 @@ def _literal(token: _Token) -> float | int | str:
         return number
     # Twenty characters are more than 64 bits have; int() of a very long text is slow.
     number = int(token.text, 16 if token.text.startswith("0x") else 10) if len(token.text) <= 20 else math.inf
-    if number > LARGEST_WHOLE:
+    if number > _LARGEST_WHOLE:
         raise ExpressionError(f"{quoted(token.text)} is too large a whole number; write it with a point")
     return number

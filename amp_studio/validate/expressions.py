@@ -29,7 +29,7 @@ from amp_studio.schema import (
     quoted,
 )
 
-AT_HAND = ("it", "at")
+_AT_HAND = ("it", "at")
 """Names in the conditions of ``blames`` and ``compares``: the value at hand, and its position in a list."""
 
 TYPES = {
@@ -197,7 +197,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         compiled = _compiled(rule, place, text)
         found = set(compiled.references()["variables"]) - set(_OVER_A_LIST.findall(text))
         variables = found - TYPES
-        known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
+        known = {*rule.reads, *ALWAYS_THERE, *(_AT_HAND if place.startswith(("blames", "compares")) else ())}
         for name in sorted(variables - known):
             raise RuleError(rule.id, f"{place} names {quoted(name)}, which it does not read")
         if place.startswith(("check", "value ")):

@@ -11,7 +11,7 @@ from amp_studio.schema import Model, ModelError, Slip
 
 T = TypeVar("T", bound=Model)
 
-MAX_LENGTHS = {
+_MAX_LENGTHS = {
     "id": 100,
     "title": 200,
     "message": 2000,
@@ -45,7 +45,7 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
         return None, [((), "must be a mapping: lines of a key, a colon and what it is")]
     slips: list[Slip] = [
         ((key,), f"is too long: {len(data[key]):,}, and {most:,} are the most")
-        for key, most in MAX_LENGTHS.items()
+        for key, most in _MAX_LENGTHS.items()
         if isinstance(data.get(key), Sized) and len(data[key]) > most
     ]
     long = _heads(slips)

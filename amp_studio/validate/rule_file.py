@@ -48,17 +48,17 @@ _SUPPRESSIONS = "suppressions"
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown", *TITLES)
 """Findings of every family that are of no separate rule."""
 MAX_RULES = 2000
-MAX_SUPPRESSIONS = 10_000
+_MAX_SUPPRESSIONS = 10_000
 MAX_FAULTS = 200
 """Of a file: the rest is reported in one finding."""
-MAX_STEPS_OF_FILE = 4 * MAX_STEPS
+_MAX_STEPS_OF_FILE = 4 * MAX_STEPS
 """Of all its rules together."""
 
 
-NO_AXES: Mapping[str, str] = MappingProxyType({})
+_NO_AXES: Mapping[str, str] = MappingProxyType({})
 
 
-def read_builder_rules(path: Path, schema: Schema, axes: Mapping[str, str] = NO_AXES) -> BuilderRules:
+def read_builder_rules(path: Path, schema: Schema, axes: Mapping[str, str] = _NO_AXES) -> BuilderRules:
     """Return what a file means for files of a family; faults of the file are findings.
 
     ``axes`` is letter -> axis of the file at hand: a rule may read ``servo.initial_gain@X``.
@@ -92,7 +92,7 @@ class _RuleFileReader:
     def read(self) -> BuilderRules:
         entries, self._faults = read_entries(self._path, ("rules", _SUPPRESSIONS))
         used: dict[str, list[FactEntry]] = {}
-        for kind, most in (("rules", MAX_RULES), (_SUPPRESSIONS, MAX_SUPPRESSIONS)):
+        for kind, most in (("rules", MAX_RULES), (_SUPPRESSIONS, _MAX_SUPPRESSIONS)):
             of_kind = [entry for entry in entries if entry.kind == kind]
             for entry in of_kind[most : most + 1]:
                 self._fault(
@@ -182,7 +182,7 @@ class _RuleFileReader:
 
     def _try(self, rule: BuilderRule, cost: int) -> list[Slip]:
         """See whether a rule can be used on every machine type, and is not one too many."""
-        if self._cost + cost > MAX_STEPS_OF_FILE:
+        if self._cost + cost > _MAX_STEPS_OF_FILE:
             return [
                 ((), "with those before it the rules can take too many steps: let them go over fewer lists")
             ]

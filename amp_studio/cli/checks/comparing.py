@@ -84,7 +84,7 @@ def print_comparison(
         print_difference(second, difference, secrets)
     # What the manual warns of is printed where a value changes, not where both machines agree.
     if comparison.differences or of_second:
-        print_dangers((file, comparison.differences), (second, of_second))
+        _print_dangers((file, comparison.differences), (second, of_second))
     more = len(of_second)
     print(
         f"{how_many(len(comparison.differences) + more, comparison.same)},"
@@ -99,7 +99,7 @@ def how_many(differ: int, same: int) -> str:
     )
 
 
-def print_dangers(*sides: tuple[ParameterFile, Sequence[Difference]]) -> None:
+def _print_dangers(*sides: tuple[ParameterFile, Sequence[Difference]]) -> None:
     """Print what the manual calls dangerous about values that differ, one line each."""
     from amp_studio.report import dangers_of_change
 

@@ -154,7 +154,7 @@ def _reasons(validator: Validator, same: Iterable[Finding]) -> Iterator[str]:
     return (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
 
 
-class JsonFormat(CheckFormat):
+class _JsonFormat(CheckFormat):
     """One document: that of a file, or ``files``."""
 
     needs_all = True
@@ -200,7 +200,7 @@ class JsonFormat(CheckFormat):
         return found
 
 
-class SarifFormat(CheckFormat):
+class _SarifFormat(CheckFormat):
     """SARIF 2.1.0 (OASIS), which services for code scanning and editors read."""
 
     needs_all = True
@@ -300,7 +300,7 @@ def _sarif_place(path: Path, line: int) -> dict[str, Any]:
     return {"physicalLocation": place}
 
 
-class GithubFormat(CheckFormat):
+class _GithubFormat(CheckFormat):
     """Workflow commands of GitHub Actions, which shows them beside the changed lines."""
 
     from_here = True
@@ -334,7 +334,7 @@ def _github_value(text: str) -> str:
     return _github_message(text).replace(":", "%3A").replace(",", "%2C")
 
 
-class JunitFormat(CheckFormat):
+class _JunitFormat(CheckFormat):
     """JUnit's XML: a suite a file, a failed case an error;
     warnings and recommendations fail nothing and are its output.
     """
@@ -401,10 +401,10 @@ def _xml_text(text: str) -> str:
 
 CHECK_FORMATS: Mapping[str, CheckFormat] = {
     "text": CheckFormat(),
-    "json": JsonFormat(),
-    "sarif": SarifFormat(),
-    "github": GithubFormat(),
-    "junit": JunitFormat(),
+    "json": _JsonFormat(),
+    "sarif": _SarifFormat(),
+    "github": _GithubFormat(),
+    "junit": _JunitFormat(),
 }
 
 

@@ -9,10 +9,10 @@ from amp_studio.cli.verb import Options
 if TYPE_CHECKING:
     from amp_studio.transfer.plain import Tape
 
-BLANKS = {"nul": b"\0", "space": b" "}
+_BLANKS = {"nul": b"\0", "space": b" "}
 
 
 def tape(options: Options) -> Tape:
     from amp_studio.transfer.plain import Tape
 
-    return Tape(options.leader, BLANKS[options.blank], options.percent)
+    return Tape(options.leader, _BLANKS[options.blank], options.percent)

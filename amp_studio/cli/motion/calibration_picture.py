@@ -8,7 +8,7 @@ from amp_studio.calibration import Proposal
 from amp_studio.drawing import Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.schema import unit_text
 
-MICRO = 1000.0
+_MICRO = 1000.0
 """Errors are drawn in µm where positions are in mm."""
 _SORTS: dict[tuple[str, bool], ShapeSort] = {
     ("measured", True): "dim",
@@ -27,7 +27,7 @@ _DIRECTIONS: dict[bool, tuple[str, Literal["above", "below"]]] = {
 
 def proposal_scene(proposal: Proposal, title: str) -> Scene:
     """Return the mean errors of both directions over the position, before and after."""
-    times, unit = (MICRO, "µm") if proposal.unit == "mm" else (1.0, unit_text(proposal.unit))
+    times, unit = (_MICRO, "µm") if proposal.unit == "mm" else (1.0, unit_text(proposal.unit))
     lines, texts = [], []
     for when, sides in (("measured", proposal.before), ("expected", proposal.after)):
         for side, curve in sides.items():

@@ -59,7 +59,7 @@ def text(file: ParameterFile, checks: Sequence[MotionCheck]) -> str:
     """Return the checks as a person reads them, with the parameters to look at where one is not good."""
     lines = []
     for check in checks:
-        figures = ", ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items())
+        figures = ", ".join(_figure_text(name, value, unit) for name, (value, unit) in check.figures.items())
         lines.append(f"{check.verdict:12} {check.scenario:9} {check.letter:3} {figures}".rstrip())
         if check.why:
             lines.append(f"{'':13}{check.why}")
@@ -72,7 +72,7 @@ def text(file: ParameterFile, checks: Sequence[MotionCheck]) -> str:
     return "\n".join((*lines, ", ".join(f"{count} {verdict}" for verdict, count in counts(checks).items())))
 
 
-def figure_text(name: str, value: float | None, unit: str) -> str:
+def _figure_text(name: str, value: float | None, unit: str) -> str:
     from amp_studio.sim import value_text
 
     words = name.replace("_", " ")

@@ -23,7 +23,7 @@ _MAX_WORDS = 10_000
 """Ten thousand whole positions are far more than any travel; the guide prints no limit."""
 
 
-class BallscrewTable:
+class _BallscrewTable:
     """A word for each whole position from home on; what lies before home is at the end (page 107).
 
     A word has the correction: target less the mean of what was measured.
@@ -187,7 +187,7 @@ def _point_text(at: Fraction, size: Fraction) -> str:
 
 COMPENSATION = Compensation(
     reversal="backlash.amount",
-    table=BallscrewTable(),
+    table=_BallscrewTable(),
     pages=(
         TuningPage("reversal", "Backlash", "87", ("backlash.amount",)),
         TuningPage(

@@ -40,7 +40,7 @@ from .law_spindle import probing, spindle
 if TYPE_CHECKING:
     pass
 
-NORMAL_DAC_GAIN = 3276.8
+_NORMAL_DAC_GAIN = 3276.8
 """Words of the converter for 1 V (page 114)."""
 
 _GAINS = {
@@ -53,7 +53,7 @@ _GAINS = {
     loop.FBVEL: ids.tuning_fbvel,
 }
 _MILLISECONDS = 1e-3
-MAX_LOPASS, MAX_NOTCH = 0.1, 0.45
+_MAX_LOPASS, _MAX_NOTCH = 0.1, 0.45
 """Share of the servo update frequency: up to a tenth of it LOPASS is of use (page 128); a notch must be below
 the half."""
 _SMALLEST_GAIN, _LARGEST_GAIN = 1e-9, 1e6
@@ -130,13 +130,13 @@ def bind(read: AxisParameters) -> AxisLaw:
         homing=partial(events.homing, read, pulses),
         jogging=partial(events.jogging, read),
         travel=partial(events.travel, read),
-        undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
+        undamped=_UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
         stops_at="excess_error",
         gains=("derivative_gain", "position_gain", "integral_gain"),
         filters=(
-            LoopFilter("lopass", MAX_LOPASS / period),
-            LoopFilter("notch", MAX_NOTCH / period, width="notch_width"),
+            LoopFilter("lopass", _MAX_LOPASS / period),
+            LoopFilter("notch", _MAX_NOTCH / period, width="notch_width"),
         ),
         follow=follow,
         sources=_sources(pulses, ids.speeds_rapid if rapid else ids.max_machine),
@@ -149,7 +149,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     )
 
 
-UNDAMPED = (
+_UNDAMPED = (
     "D Gain is 0, as in a new file (page 59): nothing damps an axis in torque mode. Set D Gain first, then P"
     " Gain (page 115, steps 8 to 10)"
 )
@@ -188,7 +188,7 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
     # D Time is sampled in whole servo periods; 0 means each of them (113).
     p[loop.D_PERIODS] = max(1.0, round(read.within(ids.d_time, 0.0, 1e6) * _MILLISECONDS / period))
     p[loop.DAC_SHARE] = _dac_share(read)
-    p[loop.DAC_WORDS] = NORMAL_DAC_GAIN
+    p[loop.DAC_WORDS] = _NORMAL_DAC_GAIN
     sections = _filters(read, 1.0 / period)
     if sections != (PASS, PASS):
         notes.append(_FILTER_NOTE)
@@ -205,7 +205,7 @@ def _dac_share(read: AxisParameters) -> float:
             " is normal (page 114)",
             ids.dac_gain,
         )
-    return abs(gain) / NORMAL_DAC_GAIN
+    return abs(gain) / _NORMAL_DAC_GAIN
 
 
 def _filters(read: AxisParameters, servo_hz: float) -> tuple[Biquad, Biquad]:
@@ -321,7 +321,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     volts = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
     # Three digits, as a person keys them in.
     wanted = float(f"{volts / p[loop.DAC_SHARE] / (speed * p[loop.PULSES]) + p[loop.FBVEL]:.3g}")
-    if wanted < 0.0 or abs(wanted - p[loop.VEL_FFWD]) <= SAME * wanted:
+    if wanted < 0.0 or abs(wanted - p[loop.VEL_FFWD]) <= _SAME * wanted:
         return ()
     return (
         Recommendation(
@@ -335,7 +335,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     )
 
 
-SAME = 0.005
+_SAME = 0.005
 """Share of the Vel FFwd by which another one is the same."""
 
 

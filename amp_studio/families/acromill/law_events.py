@@ -8,7 +8,7 @@ from amp_studio.sim import AxisParameters, Homing, Jogging, Ramp, SimulationErro
 
 from .law_facts import MOTION, ids
 
-NOTES = (
+_NOTES = (
     (
         "To the switch at Home Fast Speed, away from it at Home Slow Speed, on to the marker at Marker Speed"
         " (page 65)."
@@ -39,7 +39,7 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
         order=priority,
         speeds={"approach": ids.fast_speed, "leave": ids.slow_speed, "search": ids.marker_speed},
         page="65",
-        notes=NOTES,
+        notes=_NOTES,
     )
 
 

@@ -51,7 +51,7 @@ PARAMETERS = 25
 INTEGRAL, RESTING, DERIVATIVE, SAMPLE_IN, ERROR_SAMPLED, MOTOR_BEFORE, RUN = 0, 1, 2, 3, 4, 5, 6
 """V, s since the command rests, V, periods to the next derivative, pulses, pulses,
 commanded travel in pulses."""
-FILTER_STATE = 7
+_FILTER_STATE = 7
 STATE = 11
 
 FULL_VOLTS = 10.0
@@ -104,7 +104,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
     # Two sections in the transposed direct form: two states each, whatever the coefficients are.
     for k in range(2):
-        f, m = FILTERS + 5 * k, FILTER_STATE + 2 * k
+        f, m = FILTERS + 5 * k, _FILTER_STATE + 2 * k
         passed = p[f] * volts + s[m]
         s[m] = p[f + 1] * volts + p[f + 3] * passed + s[m + 1]
         s[m + 1] = p[f + 2] * volts + p[f + 4] * passed

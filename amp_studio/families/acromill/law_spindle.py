@@ -6,9 +6,9 @@ from amp_studio.sim import AxisLaw, AxisParameters, Gear, Probing, SimulationErr
 
 from .law_facts import ids
 
-FULL_V = 10.0
-SHARED = "The output is Spindle Scaling x speed (page 77): one step, a ramp is not printed."
-LATENCY = "ASSUMED: the card takes the position at the signal itself; its latency is not printed (page 29)."
+_FULL_V = 10.0
+_SHARED = "The output is Spindle Scaling x speed (page 77): one step, a ramp is not printed."
+_LATENCY = "ASSUMED: the card takes the position at the signal itself; its latency is not printed (page 29)."
 
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
@@ -18,10 +18,10 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     scaling = read.number(ids.spindle_scaling, everywhere=True)
     if scaling == 0.0:
         raise SimulationError("Spindle Scaling is 0: no speed gives an output", ids.spindle_scaling)
-    top = FULL_V / abs(scaling)
+    top = _FULL_V / abs(scaling)
     sign = 1.0 if scaling > 0.0 else -1.0
-    gear = Gear("1", 0.0, top, full=top, output=sign * FULL_V)
-    return Spindle("1", "AcroMill spindle: analog output", "V", (gear,), "77", (SHARED,))
+    gear = Gear("1", 0.0, top, full=top, output=sign * _FULL_V)
+    return Spindle("1", "AcroMill spindle: analog output", "V", (gear,), "77", (_SHARED,))
 
 
 def probing(read: AxisParameters, _axis: AxisLaw, cycle: str) -> Probing:
@@ -36,7 +36,7 @@ def probing(read: AxisParameters, _axis: AxisLaw, cycle: str) -> Probing:
         "G31 block skip",
         (read.optional(ids.probe_feedrate, everywhere=True) or 0.0) / 60.0,
         0.0,
-        LATENCY,
+        _LATENCY,
         after="returns",
         page="29",
         notes=(f"The signal counts at its {edge or 'rising'} edge.",),

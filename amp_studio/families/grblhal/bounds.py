@@ -22,7 +22,7 @@ from .description import (
 )
 from .numbers import LARGEST, read_number
 
-CLASSIC = {0: 255, 1: 255, 2: 255, 3: 255, 10: 255, 23: 255, 26: 65_535}
+_CLASSIC = {0: 255, 1: 255, 2: 255, 3: 255, 10: 255, 23: 255, 26: 65_535}
 """The largest whole numbers of a Grbl 1.1, which does not check them either (settings.h ``settings_t``)."""
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)")
@@ -44,8 +44,8 @@ def check_text(setting: DescribedSetting | None, number: int, text: str, axes: i
     if (setting is None or setting.type == DECIMAL) and not _NUMBER.fullmatch(text):
         raise BoundsError(f"{name} takes a number, not '{text[:40]}'")
     if setting is None:
-        if text.isdecimal() and int(text) > CLASSIC.get(number, LARGEST):
-            raise BoundsError(f"{name} takes 0 to {CLASSIC.get(number, 0)}, not {text}")
+        if text.isdecimal() and int(text) > _CLASSIC.get(number, LARGEST):
+            raise BoundsError(f"{name} takes 0 to {_CLASSIC.get(number, 0)}, not {text}")
     elif setting.type in (TEXT, PASSWORD, IPV4):
         _check_length(setting, name, text)
     elif setting.type == DECIMAL:

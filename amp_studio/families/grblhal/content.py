@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from amp_studio.transfer import ImageError
 
-MAGIC = "grblHAL settings 1"
+_MAGIC = "grblHAL settings 1"
 LARGEST = 1 << 20
 """Characters; the enumerations of a build with everything have about 150,000."""
 
@@ -103,7 +103,7 @@ def write_content(content: GrblContent) -> bytes:
         "$N": [f"$N{number}={line}" for number, line in sorted(content.startup.items())],
         **content.enumerations,
     }
-    lines = [MAGIC]
+    lines = [_MAGIC]
     for name in _SECTIONS:
         if name in sections:
             lines += [f"> {name}", *sections[name]]
@@ -137,7 +137,7 @@ def _sections(data: bytes) -> dict[str, list[str]]:
     except UnicodeDecodeError:
         raise ImageError("the copy of the settings is not text") from None
     lines = text.split("\n")
-    if lines[0] != MAGIC:
+    if lines[0] != _MAGIC:
         raise ImageError("this is not a copy of Grbl settings")
     # The number of lines is in the last one: a copy that was cut off anywhere is noticed.
     if lines[-1] != "" or lines[-2] != f"end {len(lines) - 2}":

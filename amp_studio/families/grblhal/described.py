@@ -39,12 +39,12 @@ from .description import (
 )
 
 FAMILY = "grblhal"
-PAGE = "ES"
+_PAGE = "ES"
 """Where the facts of a control are: its answer to ``$ES``."""
-KEPT_STATES = ("per_axis_rates",)
+_KEPT_STATES = ("per_axis_rates",)
 """Conditions by which a setting comes and goes with another one:
 it is known though the control does not list it now."""
-AXES_RULE = "grblhal.build.axes"
+_AXES_RULE = "grblhal.build.axes"
 """Which letters a build can have; those of a control are in its description."""
 _AXIS_GROUP = "Axis"
 _UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
@@ -83,10 +83,10 @@ class _Maker:
             known=self.known,
             parameters=[self._parameter(setting) for setting in self.described.settings.values()],
             axes=self.axes,
-            page=PAGE,
+            page=_PAGE,
             number_format="${n}",
             command="${n}={v}",
-            left_out=frozenset({AXES_RULE}),
+            left_out=frozenset({_AXES_RULE}),
             stays=_keeps_its_place,
         )
         made = DescribedSchema(control, {"build": self._build()})
@@ -224,7 +224,7 @@ class _Maker:
 
 def _keeps_its_place(parameter: Parameter, listed: frozenset[str]) -> bool:
     """Whether a setting that the control does not list now comes with one that it lists."""
-    return "homing.cycle" in listed and any((s.when or s.unless) in KEPT_STATES for s in parameter.states)
+    return "homing.cycle" in listed and any((s.when or s.unless) in _KEPT_STATES for s in parameter.states)
 
 
 def _number(text: str, kind: str) -> float | None:

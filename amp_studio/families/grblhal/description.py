@@ -110,7 +110,7 @@ class Description:
         return float(match[1]) if match else None
 
 
-def description_lines(content: bytes) -> list[str]:
+def _description_lines(content: bytes) -> list[str]:
     """Return the lines of a content that describe the control, in their order; raises DescriptionError."""
     if len(content) > MAX_BYTES:
         raise DescriptionError(f"the description of a control has at most {MAX_BYTES:,} bytes")
@@ -143,7 +143,7 @@ def description_of(content: bytes) -> bytes:
     """Return what describes the control in all that was read from it: one line each,
     the same for the same control.
     """
-    return "".join(f"{line}\n" for line in dict.fromkeys(description_lines(content))).encode(
+    return "".join(f"{line}\n" for line in dict.fromkeys(_description_lines(content))).encode(
         "utf-8", "replace"
     )
 
@@ -151,7 +151,7 @@ def description_of(content: bytes) -> bytes:
 def read_description(content: bytes) -> Description:
     """Return what the lines of a content say; raises DescriptionError."""
     found = Description()
-    for line in description_lines(content):
+    for line in _description_lines(content):
         tag, _, rest = line[1:-1].partition(":")
         _READERS.get(tag, _read_fact)(found, tag, rest)
     if not found.settings:

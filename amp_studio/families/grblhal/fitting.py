@@ -18,7 +18,7 @@ from amp_studio.schema import Address, InvalidValueError, Schema, Value, fault, 
 from .masks import Build, MaskBits, bits_beyond, set_bits, with_bits
 from .settings import addresses_by_number, number_at, text_of_value, value_of_text
 
-LACKING = "this control does not have the setting"
+_LACKING = "this control does not have the setting"
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Misfit:
     @property
     def is_lacking(self) -> bool:
         """Whether the control does not have it at all."""
-        return self.why == LACKING
+        return self.why == _LACKING
 
     def __str__(self) -> str:
         return f"{self.name} = {self.value}: {self.why}"
@@ -119,7 +119,7 @@ def _set(
     parameter = file.schema.parameters[address[0]]
     name, value_text = file.machine_schema.label(address), show_value(parameter, value)
     if target is None:
-        return [Misfit(name, value_text, LACKING)]
+        return [Misfit(name, value_text, _LACKING)]
     other = found.schema.parameters[target[0]]
     if other.type == parameter.type and not other.choices and other.type != "bits":
         found.set(target, value)
@@ -139,7 +139,7 @@ def _set(
 def _set_text(found: ParameterFile, target: Address | None, name: str, text: str) -> list[Misfit]:
     """Set a value by its text; returns why it does not fit, empty where it does."""
     if target is None:
-        return [Misfit(name, text, LACKING)]
+        return [Misfit(name, text, _LACKING)]
     try:
         value = value_of_text(found.schema.parameters[target[0]], text, turns=found.evaluation.turns(target))
     except InvalidValueError as error:

@@ -33,7 +33,7 @@ HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20,
 PER_AXIS_RATES = range(180, 200)
 """Settings that are there only while bit 9 of $22 is set,
 and $24 and $25 only while it is not (settings.c ``is_setting_available``)."""
-COMMON_RATES = {LOCATE_RATE: range(180, 190), SEEK_RATE: range(190, 200)}
+_COMMON_RATES = {LOCATE_RATE: range(180, 190), SEEK_RATE: range(190, 200)}
 """The rate of all axes -> the rates of each, which begin with it."""
 _PER_AXIS, _KEEP_HOMED = 1 << 9, 1 << 7
 _SHOWN, _NAMED = 5, 60
@@ -246,7 +246,7 @@ def _masked(copy: GrblContent, content: bytes, present: GrblContent, current: by
 def _lacking(wanted: Mapping[int, str], present: GrblContent) -> list[int]:
     """Return the numbers that a control does not have, and does not get by what is written."""
     comes = _coming(wanted, present)
-    by_option = {*PER_AXIS_RATES, *COMMON_RATES}
+    by_option = {*PER_AXIS_RATES, *_COMMON_RATES}
     return [n for n in wanted if n not in present.settings and n not in comes and n not in by_option]
 
 
@@ -292,7 +292,7 @@ def _with_rates(present: Mapping[int, str], comes: set[int]) -> dict[int, str]:
     the common rate, where it is not there, is that of the first axis.
     """
     settings = dict(present)
-    for common, rates in COMMON_RATES.items():
+    for common, rates in _COMMON_RATES.items():
         if common in settings:
             settings |= {n: settings[common] for n in rates if n in comes and n not in settings}
         elif rates[0] in settings:
@@ -338,7 +338,7 @@ def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bo
     """Return the settings with those that others move and that were not set (settings.c
     ``set_homing_enable``).
     """
-    hidden = COMMON_RATES.keys() if has_rates else PER_AXIS_RATES
+    hidden = _COMMON_RATES.keys() if has_rates else PER_AXIS_RATES
     visible = {n: text for n, text in settings.items() if n not in hidden}
     moved = _moved_by_homing(settings, wanted.get(HOMING, ""))
     return visible | {n: moved[n] for n in moved if n in visible and n not in wanted}

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     pass
 
 COMMON = (ids.seek_rate, ids.locate_rate)
-OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
-ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
-PHASES = 6
+_OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
+_ENABLED, _ORIGIN, _PER_AXIS = 1 << 0, 1 << 3, 1 << 9
+_PHASES = 6
 """Of a homing of all axes: $44 to $49."""
 SEARCH = 1.5
 """Times the travel in which a switch is searched (config.h, HOMING_AXIS_SEARCH_SCALAR)."""
@@ -46,15 +46,15 @@ SAMPLE = MOTION.value("sample")
 GAIN = MOTION.value("position_gain")
 """1/s"""
 
-FOLLOWS = (
+_FOLLOWS = (
     "ASSUMED: the motor follows its steps; a stepper has no servo loop, and steps that it loses under load"
     " are not simulated."
 )
-SOURCE = "grblHAL machine_limits.c"
-HOMED = (
+_SOURCE = "grblHAL machine_limits.c"
+_HOMED = (
     (
         "At the seek rate to the switch, at once at rest, back by the pull-off at the seek rate, at the"
-        f" locate rate to the switch again, and back by the pull-off ({SOURCE}, homing_cycle). ASSUMED: the"
+        f" locate rate to the switch again, and back by the pull-off ({_SOURCE}, homing_cycle). ASSUMED: the"
         " axis is homed alone, and the debounce delay passes at rest."
     ),
     (
@@ -62,7 +62,7 @@ HOMED = (
         " the machine the switch is. Look at the first move of $H."
     ),
 )
-LIMITED = (
+_LIMITED = (
     "A move beyond the travel is refused before it begins, with ALARM:2; a jog is refused with error:15, or"
     " ends at the travel with $40 (machine_limits.c)."
 )
@@ -112,7 +112,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         faults={"drive": AlarmText("ALARM:17", "A motor driver reports a fault (A34)")},
         predict=lambda speed: {"step_rate": Prediction(abs(speed) * steps, "Hz", "protocol")},
         sources={"feedrate": Source(ids.max_rate, 60.0), "acceleration": Source(ids.axis_acceleration)},
-        assumptions=(FOLLOWS,),
+        assumptions=(_FOLLOWS,),
         homing=partial(homing, read),
         jogging=lambda: Jogging(
             {"max": rate / 60.0},
@@ -130,10 +130,10 @@ def _bit(read: AxisParameters, name: str, bit: int) -> bool:
 def homing(read: AxisParameters) -> Homing:
     """Return the homing cycle of one axis; raises SimulationError where it is off."""
     cycle = int(read.optional(ids.homing_cycle, everywhere=True) or 0.0)
-    if not cycle & ENABLED:
+    if not cycle & _ENABLED:
         raise SimulationError("Homing is off ($22): $H is answered with error:5", ids.homing_cycle)
     sign = -1.0 if _bit(read, ids.invert_direction, MOTION.axes.index(read.axis)) else 1.0
-    rates = OWN if cycle & PER_AXIS else COMMON
+    rates = _OWN if cycle & _PER_AXIS else COMMON
     seek, locate = (read.optional(name, everywhere=rates is COMMON) or 0.0 for name in rates)
     if not (seek > 0.0 and locate > 0.0):
         raise SimulationError(
@@ -143,8 +143,8 @@ def homing(read: AxisParameters) -> Homing:
     back, travelled = read.number(ids.pull_off, everywhere=True), read.number(ids.max_travel)
     if not back > 0.0:
         raise SimulationError(f"Homing pull-off ($27) is {back:g}; it must be above 0", ids.pull_off)
-    home = 0.0 if cycle & ORIGIN else back - travelled if sign < 0.0 else -back
-    none = f"the switch has not been found ({SOURCE}, homing_cycle)"
+    home = 0.0 if cycle & _ORIGIN else back - travelled if sign < 0.0 else -back
+    none = f"the switch has not been found ({_SOURCE}, homing_cycle)"
     return Homing(
         approach=sign * seek / 60.0,
         leave=-sign * seek / 60.0,
@@ -162,35 +162,35 @@ def homing(read: AxisParameters) -> Homing:
                 "ALARM:9", f"Homing fail: within {SEARCH:g} times the travel {none}", SEARCH * travelled
             ),
             "stuck": Failure(
-                "ALARM:8", f"Homing fail: the switch is still on after the pull-off ({SOURCE}, homing_cycle)"
+                "ALARM:8", f"Homing fail: the switch is still on after the pull-off ({_SOURCE}, homing_cycle)"
             ),
         },
         order=_phase(read),
         speeds={"approach": rates[0], "back": rates[0], "again": rates[1], "final": rates[0]},
-        page=SOURCE,
-        notes=HOMED,
+        page=_SOURCE,
+        notes=_HOMED,
     )
 
 
 def _phase(read: AxisParameters) -> int | None:
     """Return the phase of $H in which an axis is homed, from 1; None for a control whose file has none."""
     place = MOTION.axes.index(read.axis)
-    return next((n for n in range(1, PHASES + 1) if _bit(read, ids[f"homing_phase_{n}"], place)), None)
+    return next((n for n in range(1, _PHASES + 1) if _bit(read, ids[f"homing_phase_{n}"], place)), None)
 
 
 def travel(read: AxisParameters) -> Travel:
     """Return the soft limits of a homed axis (machine_limits.c, limits_set_work_envelope)."""
     if read.value(ids.limits_soft, everywhere=True) not in (True, "yes"):
-        return Travel({}, "ALARM:2", SOURCE, ("Soft limits are off ($20): only switches stop an axis.",))
+        return Travel({}, "ALARM:2", _SOURCE, ("Soft limits are off ($20): only switches stop an axis.",))
     length, cycle = read.number(ids.max_travel), int(read.optional(ids.homing_cycle, everywhere=True) or 0.0)
     # The pull-off is taken off the travel only where hard limits would trip at its end.
     back = (read.optional(ids.pull_off, everywhere=True) or 0.0) if _bit(read, ids.limits_hard, 0) else 0.0
     low, high = back - length, -back
-    if cycle & ORIGIN:
+    if cycle & _ORIGIN:
         negative = _bit(read, ids.invert_direction, MOTION.axes.index(read.axis))
         low, high = (0.0, length - back) if negative else (back - length, 0.0)
     edges = (low, high) if math.isfinite(length) else (-math.inf, math.inf)
-    return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
+    return Travel({"the soft limit": edges}, "ALARM:2", _SOURCE, (_LIMITED,), refuses=True)
 
 
 LAW = Law(

@@ -10,7 +10,7 @@ from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRow
 
 from .law_facts import MOTION, ids
 
-STRAIGHT = 0.999999
+_STRAIGHT = 0.999999
 """Cosine from which two directions are one, or opposite (plan_buffer_line)."""
 ASSUMED = (
     (
@@ -61,8 +61,8 @@ def _corner(deviation: PathLimit, accelerations: Mapping[str, PathLimit]) -> Cor
             speed = np.sqrt(bound * deviation.value * half / (1.0 - half))
         # ``cosine`` is of the angle inside the corner: 1 is a reversal, -1 straight on, where 1 - half is
         # 0.
-        speed[cosine > STRAIGHT] = 0.0
-        speed[cosine < -STRAIGHT] = np.inf
+        speed[cosine > _STRAIGHT] = 0.0
+        speed[cosine < -_STRAIGHT] = np.inf
         return ((deviation, speed),)
 
     return rule

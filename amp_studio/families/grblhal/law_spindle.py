@@ -6,11 +6,11 @@ from amp_studio.sim import AxisLaw, AxisParameters, Gear, Probing, SimulationErr
 
 from .law_facts import ids
 
-STEPPED = (
+_STEPPED = (
     "The duty cycle changes in one step; a speed outside of $31 to $30 is set to the nearest of both"
     " (spindle_control.c)."
 )
-LATENCY = (
+_LATENCY = (
     "The position is taken at the step at which the probe is seen (stepper.c, probe state monitor): the"
     " latency is a step."
 )
@@ -30,7 +30,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
         "1", low, high, full=high, output=100.0 if most is None else most, least_output=least, least=low
     )
     title = "Grbl spindle: PWM output"
-    return Spindle("1", title, "%", (gear,), "spindle_control.c", (STEPPED,), clipped=True)
+    return Spindle("1", title, "%", (gear,), "spindle_control.c", (_STEPPED,), clipped=True)
 
 
 def probing(_read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
@@ -41,4 +41,4 @@ def probing(_read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
     if name not in ("G38.2", "G38.3"):
         raise SimulationError(f"Unknown cycle {cycle}. Known: G38.2, G38.3", "move.cycle")
     fails = "ALARM:5" if name == "G38.2" else ""
-    return Probing(f"{name} probe", 0.0, axis.servo_period, LATENCY, outside=fails, page="motion_control.c")
+    return Probing(f"{name} probe", 0.0, axis.servo_period, _LATENCY, outside=fails, page="motion_control.c")

@@ -35,19 +35,19 @@ The empty line is answered ``ok``: until one is taken, a grblHAL that has refuse
 (protocol.c), that of a program on another line too.
 """
 
-SLICE = 0.05  # seconds a read may last between two looks at the cancel event
+_SLICE = 0.05  # seconds a read may last between two looks at the cancel event
 START = 12.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
-AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
+_AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
 # seconds after which a control that is still reading the first line is asked for its state again: it is no
 # silence
-ASK = 1.0
-QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
-ANSWER = 8.0  # seconds without a byte of an answer
-ANSWER_ENDS = 60.0  # seconds for the whole answer
+_ASK = 1.0
+_QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
+_ANSWER = 8.0  # seconds without a byte of an answer
+_ANSWER_ENDS = 60.0  # seconds for the whole answer
 STOP_GRACE = 0.15  # seconds a command that writes is seen through after a stop was asked for
-LONGEST_LINE = 8_192  # bytes
-LONGEST_ANSWER = 1 << 20  # bytes
-MESSAGES = 100  # pushed lines that are remembered
+_LONGEST_LINE = 8_192  # bytes
+_LONGEST_ANSWER = 1 << 20  # bytes
+_MESSAGES = 100  # pushed lines that are remembered
 
 _GREETING = re.compile(r"Grbl(HAL)? ", re.IGNORECASE)
 _ERROR = re.compile(r"error:(\d{1,3})")
@@ -110,11 +110,11 @@ class GrblLine:
 
     def wait(self, seconds: float) -> None:
         """Wait; raises CancelledError."""
-        self._begin(seconds + ANSWER, finishes=False)
+        self._begin(seconds + _ANSWER, finishes=False)
         end = self._clock() + seconds
         while (left := end - self._clock()) > 0:
             self.look()
-            self._sleep(min(left, SLICE))
+            self._sleep(min(left, _SLICE))
 
     def close(self) -> None:
         """Close the line."""
@@ -122,7 +122,7 @@ class GrblLine:
 
     def check_cancel(self) -> None:
         """Raise CancelledError where a stop was asked for before anything more is sent."""
-        self._begin(ANSWER_ENDS, finishes=False)
+        self._begin(_ANSWER_ENDS, finishes=False)
         self.look()
 
     def ask(self, command: str, *, writes: bool = False) -> list[str]:
@@ -137,12 +137,12 @@ class GrblLine:
             self._erase()  # it may read lines again
         if self._suspended:
             raise ControlSuspendedError(self._suspended)
-        self._begin(ANSWER_ENDS, finishes=writes)
+        self._begin(_ANSWER_ENDS, finishes=writes)
         self._link.write(command.encode() + b"\n")
         answer: list[str] = []
         size = 0
         while True:
-            line = self._line(ANSWER)
+            line = self._line(_ANSWER)
             if line == "ok" and self._pending_oks and not answer:
                 self._pending_oks -= 1
                 continue
@@ -169,7 +169,7 @@ class GrblLine:
             answer.append(line)
             size += len(line) + 2
             # A line without ``ok``, as of another program, would fill the memory.
-            if size > LONGEST_ANSWER:
+            if size > _LONGEST_ANSWER:
                 raise ProtocolMismatchError("the control answers without an end")
 
     def state(self) -> str:
@@ -179,10 +179,10 @@ class GrblLine:
     def report(self) -> str:
         """Return the whole report of its state, as ``?`` brings it; raises as ``ask``."""
         self.check_cancel()
-        self._begin(ANSWER, finishes=False)
+        self._begin(_ANSWER, finishes=False)
         self._link.write(b"?")
         while True:
-            line = self._line(ANSWER)
+            line = self._line(_ANSWER)
             if line.startswith("<"):
                 self._waiting.note_answer()
                 return line
@@ -198,7 +198,7 @@ class GrblLine:
         """
         self._begin(START, finishes=False)
         self._link.write(b"?")
-        first = self._next(ASK, self._clock()) or ""
+        first = self._next(_ASK, self._clock()) or ""
         self._is_refusal(first)
         self._notice(state_in(first))
         sent, refused = self._send_first_line()
@@ -213,17 +213,17 @@ class GrblLine:
         not at all where the control has stopped.
         """
         # So that the first line is sent at once.
-        sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
+        sent, sent_at, asked_at, refused = 0, -_AGAIN, 0.0, 0
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
         while not refused and not self._suspended:
             now = self._clock()
             # A control that reports its state has the line and only needs time; one that is silent has
             # lost it to a boot loader.
-            again, pause = (START, ASK) if is_alive else (AGAIN, AGAIN)
+            again, pause = (START, _ASK) if is_alive else (_AGAIN, _AGAIN)
             if now - sent_at >= again:
                 self._link.write(b"?" + ERASE)  # the state is reported at once, even where no line is read
                 sent, sent_at, asked_at = sent + 1, now, now
-            elif is_alive and now - asked_at >= ASK:
+            elif is_alive and now - asked_at >= _ASK:
                 self._link.write(b"?")
                 asked_at = now
             line = self._next(pause, asked_at)
@@ -238,9 +238,9 @@ class GrblLine:
         ``ok``.
         """
         refused, oks, quiet_since = 0, 0, self._clock()
-        while self._clock() - quiet_since < QUIET:
+        while self._clock() - quiet_since < _QUIET:
             self.look()
-            if data := self._link.read(SLICE):
+            if data := self._link.read(_SLICE):
                 self._split_lines(data)
                 quiet_since = self._clock()
             while self._lines:
@@ -263,7 +263,7 @@ class GrblLine:
             self.look()
             if self._clock() - since >= seconds:
                 return None
-            self._split_lines(self._link.read(SLICE))
+            self._split_lines(self._link.read(_SLICE))
         return self._lines.popleft()
 
     def _line(self, patience: float) -> str:
@@ -271,7 +271,7 @@ class GrblLine:
         received_at = self._clock()
         while not self._lines:
             self.look()
-            if data := self._link.read(SLICE):
+            if data := self._link.read(_SLICE):
                 self._split_lines(data)
                 received_at = self._clock()
             elif self._clock() - received_at >= patience:
@@ -284,7 +284,7 @@ class GrblLine:
             self._waiting.note_answer()
         *lines, self._buffer = (self._buffer + data).split(b"\n")
         # Bounded: at a wrong baud rate everything is one line without an end.
-        if len(self._buffer) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
+        if len(self._buffer) > _LONGEST_LINE or any(len(line) > _LONGEST_LINE for line in lines):
             raise ProtocolMismatchError("the control sends a line without an end")
         # Replaced, not refused: a damaged byte is found by reading twice (``reading``).
         texts = (line.strip(b"\r\0").decode("utf-8", errors="replace") for line in lines)
@@ -298,7 +298,7 @@ class GrblLine:
     def _is_pushed(self, line: str) -> bool:
         """Remember what came unasked; returns whether this line did."""
         if line.startswith("[MSG:"):
-            self.messages = [*self.messages[-MESSAGES:], visible(line[5:].removesuffix("]"))[:200]]
+            self.messages = [*self.messages[-_MESSAGES:], visible(line[5:].removesuffix("]"))[:200]]
             return True
         if match := _ALARM.fullmatch(line):
             self.alarm = int(match[1])

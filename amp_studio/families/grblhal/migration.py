@@ -15,7 +15,7 @@ from amp_studio.meaning import (
     not_above,
 )
 
-LETTERS, _TURNING, _FIRST_TURNING = "XYZABCUV", "ABC", 3
+_LETTERS, _TURNING, _FIRST_TURNING = "XYZABCUV", "ABC", 3
 _HOMING = 1 | 4 | 8 | 512
 """$22: on, needed at the start, home is zero, rates of each axis."""
 _WITHOUT_SWITCH = {
@@ -48,7 +48,7 @@ class _SettingsWriter:
             if question.is_number:
                 self.out.number(question, self.answers)
         places = [
-            (axis, LETTERS.index(letter)) for axis in self.machine.axes if (letter := self._letter(axis))
+            (axis, _LETTERS.index(letter)) for axis in self.machine.axes if (letter := self._letter(axis))
         ]
         self._homing(places)
         for axis, place in places:
@@ -78,7 +78,7 @@ class _SettingsWriter:
 
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; asked for where it has none of its kind, "" while that is open."""
-        alike = [x for x in LETTERS if (x in _TURNING) == axis.turns]
+        alike = [x for x in _LETTERS if (x in _TURNING) == axis.turns]
         return self.out.letter(axis, self.machine.axes, alike, self.answers)
 
     def _homing(self, places: list[tuple[AxisMeaning, int]]) -> None:
@@ -91,11 +91,11 @@ class _SettingsWriter:
         self.values |= {22: str(_HOMING), 20: "1", 40: "1"}
         minus = sum(1 << place for axis, place in homed if _homes_to_minus(axis))
         self.values[23] = str(minus)
-        steps = self.out.home_steps([LETTERS[place] for _, place in homed], self.answers)
+        steps = self.out.home_steps([_LETTERS[place] for _, place in homed], self.answers)
         # $44 to $49: the firmware has six phases.
         for at, step in enumerate(steps[:6]):
             self.values[44 + at] = str(
-                sum(1 << LETTERS.index(letter) for letter in step if letter in LETTERS)
+                sum(1 << _LETTERS.index(letter) for letter in step if letter in _LETTERS)
             )
         question = MigrationQuestion(
             "home.pull_off", "How far from its switch does an axis stop after homing, in mm ($27)?"
@@ -110,7 +110,7 @@ class _SettingsWriter:
             "kind",
             "approximate" if axis.turns else "exact",
             "$376" if axis.turns else "",
-            "a bit" if axis.turns else LETTERS[n],
+            "a bit" if axis.turns else _LETTERS[n],
             "an axis that turns, with its range",
             "degrees are counted on and on",
             "neither",

@@ -10,7 +10,7 @@ import re
 import struct
 from decimal import Decimal
 
-DIGITS = 9
+_DIGITS = 9
 LARGEST = 4_000_000_000.0
 """Beyond it the whole part is not shown any more (32 bits)."""
 
@@ -33,7 +33,7 @@ def written_number(number: float) -> str:
     if not exact.is_finite() or abs(number) > LARGEST:
         raise ValueError(f"{number:g} is too large")
     digits = len(exact.as_tuple().digits)
-    rounded = round(exact, DIGITS - 1 - exact.adjusted()) if digits > DIGITS else exact
+    rounded = round(exact, _DIGITS - 1 - exact.adjusted()) if digits > _DIGITS else exact
     text = format(rounded, "f")
     return text.rstrip("0").rstrip(".") if "." in text else text
 
@@ -45,16 +45,16 @@ def read_number(text: str) -> float:
         raise ValueError(f"'{text[:40]}' is no number")
     whole, fraction = match[1].lstrip("0"), match[2] or ""
     # The firmware counts nine digits and drops the rest without rounding.
-    number = int((whole + fraction).lstrip("0")[:DIGITS] or "0")
-    if len(whole) >= DIGITS:
-        exponent = len(whole) - DIGITS
+    number = int((whole + fraction).lstrip("0")[:_DIGITS] or "0")
+    if len(whole) >= _DIGITS:
+        exponent = len(whole) - _DIGITS
     else:
         zeros = len(fraction) - len(fraction.lstrip("0")) if not whole else 0
-        exponent = -min(len(fraction), zeros + DIGITS - len(whole))
+        exponent = -min(len(fraction), zeros + _DIGITS - len(whole))
     # Nine digits do not fit a 32-bit float: rounded here once, as the firmware does.
     value = single(float(number))
     # Before it is scaled: thousands of digits would multiply for ever.
-    if value and (exponent > DIGITS or value * 10.0**exponent > LARGEST):
+    if value and (exponent > _DIGITS or value * 10.0**exponent > LARGEST):
         raise ValueError(f"{text[:20]} is too large")
     value = _scaled(value, exponent) if value else value
     return -value if text.startswith("-") else value

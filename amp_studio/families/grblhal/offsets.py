@@ -13,7 +13,7 @@ from .numbers import decimals_of, written_number
 PUT_BACK = (*(f"G{n}" for n in range(54, 60)), "G59.1", "G59.2", "G59.3")
 """Set by ``G10 L2 P1`` to ``P9`` whatever the position is. G28, G30 and G92 are set by where the machine
 is."""
-REPORTS_INCHES = 13
+_REPORTS_INCHES = 13
 _INCH = 25.4
 _NEAR = 0.0026  # mm; a ten thousandth of an inch is shown
 _COORDINATE = re.compile(r"-?\d{1,9}(\.\d{1,6})?")
@@ -25,7 +25,7 @@ _HARMLESS = re.compile(
 
 def reports_inches(content: GrblContent) -> bool:
     """Whether the control shows offsets in inches."""
-    return content.settings.get(REPORTS_INCHES, "0") == "1"
+    return content.settings.get(_REPORTS_INCHES, "0") == "1"
 
 
 def offset_differences(a: GrblContent, b: GrblContent) -> list[str]:
@@ -54,7 +54,7 @@ def offsets_in(content: GrblContent, settings: Mapping[int, str]) -> dict[str, s
     """Return the offsets of a control as they are in the unit of other settings of it:
     converted, with more digits than it shows, where $13 is another one.
     """
-    in_inches = settings.get(REPORTS_INCHES, "0") == "1"
+    in_inches = settings.get(_REPORTS_INCHES, "0") == "1"
     if in_inches == reports_inches(content):
         return dict(content.offsets)
     factor = 1 / _INCH if in_inches else _INCH
@@ -109,11 +109,11 @@ def startup_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tupl
     The control executes a line that it stores (system.c ``set_startup_line``).
     """
     for number, line in wanted.startup.items():
-        if line != present.startup.get(number) and is_harmless(line):
+        if line != present.startup.get(number) and _is_harmless(line):
             yield f"$N{number}", f"$N{number}={line}"
 
 
-def is_harmless(line: str) -> bool:
+def _is_harmless(line: str) -> bool:
     """Whether a start-up line sets modes only: no motion, spindle, coolant, tool or output."""
     return _HARMLESS.fullmatch(re.sub(r"[\s|]", "", line)) is not None
 
@@ -129,7 +129,7 @@ def left_notes(wanted: GrblContent, present: GrblContent) -> list[str]:
         if name not in PUT_BACK
     ]
     for number, line in wanted.startup.items():
-        if line != present.startup.get(number) and not is_harmless(line):
+        if line != present.startup.get(number) and not _is_harmless(line):
             notes.append(
                 f"The start-up line $N{number}={line} is not put back: the control would execute it now."
             )

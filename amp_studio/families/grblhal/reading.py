@@ -14,7 +14,7 @@ from .content import ENUMERATIONS, IDENTITY, OFFSETS, GrblContent, write_content
 from .description import read_description
 from .line import GrblLine, GrblRefusalError
 
-READS = 4
+_READS = 4
 """How often the settings are read until two readings are the same."""
 
 _NAMED = re.compile(r"\[([A-Z][A-Z0-9. ]*):(.*)\]")
@@ -62,7 +62,7 @@ def read_control(
     # The enumerations are most of the bytes: over a serial line they last seconds.
     if before is not None and (before.identity, before.settings.keys()) == (who.identity, settings.keys()):
         enumerations = before.enumerations
-    elif is_grblhal(who):
+    elif _is_grblhal(who):
         steps += len(ENUMERATIONS)
         enumerations = _read_enumerations(line, who, step)
     return GrblContent(who.identity, settings, offsets, startup, enumerations)
@@ -75,7 +75,7 @@ def _read_enumerations(
     on the line if it comes otherwise the next time.
     """
     found: Mapping[str, tuple[str, ...]] = {}
-    for attempt in range(READS):
+    for attempt in range(_READS):
         before, found = found, {}
         for name in ENUMERATIONS:
             found = {**found, **_enumeration(line, name)}
@@ -98,7 +98,7 @@ def _read_twice(
     checksum.
     """
     read: tuple[dict[int, str], dict[str, str], dict[int, str]] | None = None
-    for attempt in range(READS):
+    for attempt in range(_READS):
         again = (read_settings(line, who), _read_offsets(line), _read_startup(line))
         if attempt < 2:
             step()
@@ -120,14 +120,14 @@ def _read_startup(line: GrblLine) -> dict[int, str]:
     return dict(_matches(line.ask("$N"), _STARTUP, "a start-up line"))
 
 
-def is_grblhal(who: GrblContent) -> bool:
+def _is_grblhal(who: GrblContent) -> bool:
     """Whether a control is one that describes itself, and not a Grbl 1.1."""
     return who.identity_word("FIRMWARE") == "grblHAL"
 
 
 def read_settings(line: GrblLine, who: GrblContent) -> dict[int, str]:
     """Return the settings as the control shows them; raises as ``GrblLine.ask``."""
-    return dict(_matches(line.ask("$+" if is_grblhal(who) else "$$"), _SETTING, "a setting"))
+    return dict(_matches(line.ask("$+" if _is_grblhal(who) else "$$"), _SETTING, "a setting"))
 
 
 def _enumeration(line: GrblLine, name: str) -> dict[str, tuple[str, ...]]:

@@ -10,7 +10,7 @@ from amp_studio.schema import visible
 from .content import GrblContent
 from .line import GrblRefusalError
 
-TEXTS = {
+_TEXTS = {
     3: "it does not know this command",
     4: "the value must not be negative",
     5: "homing is not enabled ($22)",
@@ -40,7 +40,7 @@ _CODE = re.compile(r"\[ERRORCODE:(\d+)\|[^|]*\|(.*)\]")
 
 def refusal_text(refusal: GrblRefusalError, names: Mapping[int, str], content: GrblContent | None) -> str:
     """Return a sentence about a refusal, with the name of the setting."""
-    why = TEXTS.get(refusal.code) or _own_text(refusal.code, content)
+    why = _TEXTS.get(refusal.code) or _own_text(refusal.code, content)
     match = re.match(r"\$(\d+)=", refusal.command)
     name = names.get(int(match[1]), "") if match else ""
     command = visible(refusal.command[:80])

@@ -27,7 +27,7 @@ from amp_studio.schema import (
     to_figure,
 )
 
-BUILD = "build"
+_BUILD = "build"
 """The group of what is compiled in."""
 _LONGEST = 80
 """Signs of a number; the control shows at most some 20."""
@@ -113,7 +113,7 @@ def compiled_in(schema: Schema) -> dict[Address, Value]:
     the step rate of its driver.
     """
     here = schema.on(schema.family.default_machine)
-    defaults = {(p.id, ""): p.default for g in schema.groups if g.key == BUILD for p in g.parameters}
+    defaults = {(p.id, ""): p.default for g in schema.groups if g.key == _BUILD for p in g.parameters}
     return {
         a: Value(d.value, d.unit) for a, d in defaults.items() if d is not None and number_at(here, a) is None
     }

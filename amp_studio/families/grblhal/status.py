@@ -6,15 +6,15 @@ from collections.abc import Mapping
 
 from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, ProtocolMismatchError, known_fault
 
-LETTERS = "XYZABCUV"
+_LETTERS = "XYZABCUV"
 SWITCH = ("limit switch",)
-NOT_KNOWN = {
+_NOT_KNOWN = {
     "following_error": "it drives stepper motors without feedback and reports the position that it commanded,"
     " not the one that was reached",
     "velocity": "its report has the feed of the path, not the speed of an axis",
 }
 """What no report has (report.c), and why."""
-PINS = {
+_PINS = {
     "P": "probe",
     "R": "reset",
     "H": "feed hold",
@@ -39,7 +39,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     except ValueError:
         raise ProtocolMismatchError(f"the control reports '{report[:60]}'") from None
     pins = fields.get("Pn", "")
-    names = identity.axes or tuple(LETTERS[: len(places)])
+    names = identity.axes or tuple(_LETTERS[: len(places)])
     axes = tuple(
         AxisStatus(name, place, unit="mm", states=SWITCH if name in pins else (), known_states=SWITCH)
         for name, place in zip(names, places, strict=False)
@@ -59,7 +59,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
         faults,
         values,
         notes,
-        NOT_KNOWN,
+        _NOT_KNOWN,
         report,
     )
 
@@ -72,7 +72,7 @@ def _further(fields: Mapping[str, str], pins: str) -> dict[str, float | str]:
     """Return what a report has only at times."""
     values: dict[str, float | str] = {}
     if pins:
-        values["inputs"] = ", ".join(PINS.get(pin, f"limit {pin}") for pin in pins)
+        values["inputs"] = ", ".join(_PINS.get(pin, f"limit {pin}") for pin in pins)
     if "WCO" in fields:
         values["work coordinate offset"] = fields["WCO"]
     return values

@@ -66,8 +66,8 @@ class Writing:
 
     def receipt(self) -> Receipt:
         """Return what a person has to know of a download that was taken."""
-        waiting = restart_notes(self.settings, self._known)
-        coarse = coarse_notes(self.settings, self.present.settings, self.names)
+        waiting = _restart_notes(self.settings, self._known)
+        coarse = _coarse_notes(self.settings, self.present.settings, self.names)
         return Receipt(
             restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.target, self.present))
         )
@@ -122,7 +122,7 @@ class Writing:
         self.sent.confirm(name)
 
 
-def coarse_notes(
+def _coarse_notes(
     settings: Mapping[int, str], reported: Mapping[int, str], names: Mapping[int, str]
 ) -> Iterator[str]:
     """Yield a sentence for each setting that the control shows coarser than it keeps it."""
@@ -139,7 +139,7 @@ def coarse_notes(
             )
 
 
-def restart_notes(settings: Mapping[int, str], known: Mapping[int, DescribedSetting]) -> list[str]:
+def _restart_notes(settings: Mapping[int, str], known: Mapping[int, DescribedSetting]) -> list[str]:
     """Return a sentence about the settings that become active only when the control is switched on again."""
     waiting = [f"${n} {known[n].name}" for n in settings if n in known and known[n].needs_restart]
     if not waiting:

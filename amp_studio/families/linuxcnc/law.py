@@ -31,12 +31,12 @@ from .law_facts import MOTION, ids
 if TYPE_CHECKING:
     pass
 
-NO_LOOP = (
+_NO_LOOP = (
     "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
     " full feed-forward."
 )
 RAMP = "The ramp is that of G61, jogs and homing; with G64 a path has half of it (measured on 2.9.0~pre1)."
-HOMED = (
+_HOMED = (
     (
         "Search, back at the latch speed or, where it has the sign of the search, off and onto the switch"
         " again, to the switch or marker, which gets Position of the Switch, and the final move to Home"
@@ -47,7 +47,7 @@ HOMED = (
     "ASSUMED: markers 10 mm or deg apart, unless move.turn gives another distance.",
 )
 ENCODER = "ASSUMED: the absolute encoder shows 0 where the axis begins."
-LIMITED = (
+_LIMITED = (
     "A block beyond a limit is refused before it begins; a jog ends at it (CM218). Both ends may be reached."
     " An arc that ends inside is begun, and stops once it has passed the limit (measured on 2.9.0~pre1)."
 )
@@ -111,7 +111,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         )
     unit = "deg" if joint.value("type") == "angular" or read.axis in "ABC" else "mm"
     gain, forward = joint.optional("pid_p"), joint.optional("pid_ff1")
-    notes = [RAMP] + ([] if gain else [NO_LOOP])
+    notes = [RAMP] + ([] if gain else [_NO_LOOP])
     ferror = joint.number("ferror", 1.0)
     # Without MIN_FERROR LinuxCNC takes FERROR for it.
     least = joint.number("min_ferror", ferror)
@@ -209,7 +209,7 @@ def homing(joint: _Joint) -> Homing:
             **({"final": ids.joint_home_final_velocity} if final > 0.0 else {}),
         },
         page="H796",
-        notes=(*HOMED, ENCODER) if is_absolute else HOMED,
+        notes=(*_HOMED, ENCODER) if is_absolute else _HOMED,
     )
 
 
@@ -234,7 +234,7 @@ def travel(read: AxisParameters) -> Travel:
     low, high = read.optional(ids.min_limit), read.optional(ids.max_limit)
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     limits = {"the limit of the axis": edges}
-    return Travel(limits, "exceed limit", "CM218", (LIMITED,), refuses=True, begins_arcs=True)
+    return Travel(limits, "exceed limit", "CM218", (_LIMITED,), refuses=True, begins_arcs=True)
 
 
 LAW = Law(bind, axes, path="amp_studio.families.linuxcnc.law_path:path_rules")

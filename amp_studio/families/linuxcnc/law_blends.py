@@ -16,29 +16,29 @@ from amp_studio.sim import Geometry, PathLimit, PathRows, RowBounds, ShapedPath,
 
 from .law_segments import NORMAL, AxisLimits, Booleans, Integers, segments
 
-TANGENTIAL = 0.5
+_TANGENTIAL = 0.5
 """Share of the acceleration that is left along an arc (blendmath.h, line 19)."""
-SHARP = math.radians(2.0)
+_SHARP = math.radians(2.0)
 """Of the direction back from which a corner is a stop (TP1877)."""
-OF_LENGTH = 0.25
+_OF_LENGTH = 0.25
 """Share of a move that a corner may be off where the program gives no distance (TS546)."""
-OF_MOVE = 0.5
+_OF_MOVE = 0.5
 """Share of a move that a corner may take."""
-SMALLEST_ANGLE, SHORTEST = 1e-6, 1e-6
+_SMALLEST_ANGLE, _SHORTEST = 1e-6, 1e-6
 """rad, u: of a rounded corner."""
-MIN_CYCLES = 1.02
+_MIN_CYCLES = 1.02
 """Servo cycles of a move."""
-GAP_CYCLES = 4.0
+_GAP_CYCLES = 4.0
 """Servo cycles below which what is left before a corner goes at its speed."""
-WITHIN = 1e-4
+_WITHIN = 1e-4
 """u between a rounded corner and the straight rows of it."""
 
 STOP = PathLimit(0.0, None, "exact stop")
 CHANGE = PathLimit(0.0, None, "change between rapid and feed")
 BACK = PathLimit(0.0, None, "way back in the same line")
-GIVEN = PathLimit(0.0, None, "distance of G64 from a corner")
+_GIVEN = PathLimit(0.0, None, "distance of G64 from a corner")
 ROTARY = "Line {line}: corners of rotary axes with G64 are not simulated"
-NOT_ROUNDED = (
+_NOT_ROUNDED = (
     "Line {line}: how G64 rounds a corner at an arc is not simulated; an arc that goes on in the direction of"
     " its neighbours is, and every arc with G61"
 )
@@ -98,7 +98,7 @@ class _Shaping:
             STOP,
             CHANGE,
             BACK,
-            GIVEN,
+            _GIVEN,
         ]
         self._kink, self._stop, self._change, self._back, self._given = range(2 * count, 2 * count + 5)
         self._straight = [n for n, letter in enumerate(path.axes) if letter in "XYZ"]
@@ -143,7 +143,7 @@ class _Shaping:
         not_simulated = exact & (corner[one] != EXACT) & (corner[one] != KEPT)
         refused = [(two[not_simulated], ROTARY)]
         stop(exact, self._stop)
-        back = ((moves.last[one] + moves.first[two]) ** 2).sum(axis=1) < SHARP * SHARP
+        back = ((moves.last[one] + moves.first[two]) ** 2).sum(axis=1) < _SHARP * _SHARP
         stop(back, self._back)
         speed = np.minimum(self._most[one], self._most[two])
         share = self._kinked(one, two, speed)
@@ -157,7 +157,7 @@ class _Shaping:
         kept = corner[one] == KEPT
         slow = slow[~kept]
         stop(kept, self._stop)
-        refused.append((two[(kind[one] == ARC) | (kind[two] == ARC)], NOT_ROUNDED))
+        refused.append((two[(kind[one] == ARC) | (kind[two] == ARC)], _NOT_ROUNDED))
         self._refuse(refused)
         if self._figures.with_arcs:
             self._round(between, one, two, slow)
@@ -176,7 +176,7 @@ class _Shaping:
         turn = np.abs(moves.first[two] - moves.last[one])[:, straight]
         share = (turn * at_once[:, None] / self._limits.accelerations[straight]).max(axis=1)
         is_arc = (moves.kind[one] == ARC) | (moves.kind[two] == ARC)
-        kinked: PathRows = np.where(is_arc, share / TANGENTIAL, share)
+        kinked: PathRows = np.where(is_arc, share / _TANGENTIAL, share)
         return kinked
 
     # -- a rounded corner --------------------------------------------------------------
@@ -190,15 +190,15 @@ class _Shaping:
         # Half the angle between the two moves inside the corner; ``phi`` is by how much the path turns.
         theta = 0.5 * np.arccos(np.clip(-cosine, -1.0, 1.0))
         # Straight on there is nothing to round, and back no arc fits.
-        turns = (theta > SMALLEST_ANGLE) & (theta < 0.5 * math.pi - SMALLEST_ANGLE)
+        turns = (theta > _SMALLEST_ANGLE) & (theta < 0.5 * math.pi - _SMALLEST_ANGLE)
         one, two, theta, slow = one[turns], two[turns], theta[turns], slow[turns]
         phi = math.pi - 2.0 * theta
         least = np.minimum(moves.length[one], moves.length[two])
-        given = [np.where(tolerance[n] > 0.0, tolerance[n], moves.length[n] * OF_LENGTH) for n in (one, two)]
-        off = np.minimum(np.minimum(*given), least * OF_LENGTH)
+        given = [np.where(tolerance[n] > 0.0, tolerance[n], moves.length[n] * _OF_LENGTH) for n in (one, two)]
+        off = np.minimum(np.minimum(*given), least * _OF_LENGTH)
         acceleration, ramp_by = self._inscribed(one, two, self._limits.accelerations)
         by_tolerance = np.cos(theta) * off / (1.0 - np.sin(theta))
-        room = np.minimum(least * OF_MOVE, by_tolerance)
+        room = np.minimum(least * _OF_MOVE, by_tolerance)
         largest = np.tan(theta) * room
         goal = self._goal(one, two, phi, np.maximum(self._most[one], self._most[two]))
         speed = np.sqrt(NORMAL * acceleration * largest)
@@ -211,7 +211,7 @@ class _Shaping:
         # An arc shorter than a cycle at its speed would be jumped over.
         speed = np.minimum(speed, radius * phi / self._figures.period)
         # Where the sharp corner is passed faster, the planner leaves it sharp.
-        is_round = (radius * phi >= SHORTEST) & (speed > slow)
+        is_round = (radius * phi >= _SHORTEST) & (speed > slow)
         at, after = one[is_round], two[is_round]
         between.speed[at], between.by[at], between.kink[at] = math.inf, 0, 0.0
         between.is_round[at] = True
@@ -219,7 +219,7 @@ class _Shaping:
         between.cut[at] = (radius / np.tan(theta))[is_round]
         between.top[at], between.top_by[at] = speed[is_round], by[is_round]
         between.acceleration[at], between.ramp_by[at] = (
-            (acceleration * TANGENTIAL)[is_round],
+            (acceleration * _TANGENTIAL)[is_round],
             ramp_by[is_round],
         )
         wanted = [np.minimum(moves.programmed[n], self._top[n]) for n in (at, after)]
@@ -270,7 +270,7 @@ class _Shaping:
         )
         left, top, top_by, acceleration = self._left(between)
         # A move that its two corners take whole leaves no row.
-        is_row = ~between.is_round | (left > SHORTEST)
+        is_row = ~between.is_round | (left > _SHORTEST)
         total = int(is_row.sum() + parts.sum())
         if total > MAX_ROWS:
             raise SimulationError(f"The rounded corners of the program become more than {MAX_ROWS} moves")
@@ -307,12 +307,12 @@ class _Shaping:
         short = np.zeros(len(left), bool)
         # What is left would be faster than the arcs for a few cycles only: the planner goes on at their
         # speed.
-        short[rounds] = left[rounds] / between.top[rounds] < GAP_CYCLES * period
+        short[rounds] = left[rounds] / between.top[rounds] < _GAP_CYCLES * period
         slower = short & (between.top < top)
         top[slower], top_by[slower] = between.top[slower], between.top_by[slower]
         acceleration[short] = np.minimum(acceleration[short], between.acceleration[short])
         rest = rounds & ~short & (left > 0.0)
-        top[rest] = np.minimum(top[rest], left[rest] / (period * MIN_CYCLES))
+        top[rest] = np.minimum(top[rest], left[rest] / (period * _MIN_CYCLES))
         return left, top, top_by, acceleration
 
     def _is_last(self) -> Booleans:
@@ -353,7 +353,7 @@ class _Shaping:
         slows = (across > NORMAL * whole) & ~is_last
         speed = np.where(slows, np.sqrt(NORMAL * whole * radius), top)
         inside = np.sqrt(np.maximum(1.0 - (across / whole) ** 2, 0.0))
-        return speed, ramp * np.where(slows | is_last, TANGENTIAL, inside)
+        return speed, ramp * np.where(slows | is_last, _TANGENTIAL, inside)
 
     def _end(self, out: _Rows, start: Integers, left: PathRows, ramp: PathRows) -> None:
         """Slow down into moves with nothing after them: a next move could take half of one, so it begins only
@@ -420,7 +420,7 @@ class _Shaping:
 
 def _straight_rows(radius: PathRows, angle: PathRows) -> Integers:
     """Return how many straight rows a rounded corner becomes."""
-    rows = np.ceil(angle / (2.0 * np.sqrt(2.0 * WITHIN / np.maximum(radius, WITHIN))))
+    rows = np.ceil(angle / (2.0 * np.sqrt(2.0 * _WITHIN / np.maximum(radius, _WITHIN))))
     return np.maximum(2, rows).astype(np.int64)
 
 

@@ -17,7 +17,7 @@ from amp_studio.sim import (
 
 GAIN, FORWARD, FERROR, MIN_ERROR, TOP = range(5)  # 1/s, a ratio, u, u, u/s
 PARAMETERS = 5
-TRIPPED = 1.0
+_TRIPPED = 1.0
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:  # noqa: ARG001 -- every law has a state
@@ -33,5 +33,5 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:  # noqa: ARG001 -
     limit = max(limit, p[MIN_ERROR])
     io[MONITOR] = limit
     if abs(error) > limit:
-        io[STOP] = TRIPPED
+        io[STOP] = _TRIPPED
     io[OUTPUT] = p[GAIN] * error + p[FORWARD] * io[COMMAND_VELOCITY]

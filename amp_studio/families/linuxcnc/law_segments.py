@@ -17,7 +17,7 @@ import numpy.typing as npt
 from amp_studio.programs import ARC, DWELL, LINE, PLANES, RAPID, ROUNDED, ToolPath
 from amp_studio.sim import Geometry, PathLimit, PathRows, SimulationError
 
-MAX_JOINED = 100
+_MAX_JOINED = 100
 """Points that one straight move replaces (CN978)."""
 NORMAL = math.sqrt(3.0) / 2.0
 """Share of the acceleration across an arc while it speeds up by half of it (CN1682)."""
@@ -189,7 +189,7 @@ def _joined(begin: PathRows, points: PathRows, continues: Booleans, joins: float
     reach from the point before ``second`` to the one after it.
     """
     first, n = second - 1, second + 2
-    end = min(second + MAX_JOINED, len(points))
+    end = min(second + _MAX_JOINED, len(points))
     while n < end:
         # As many as were joined so far: so a long row of points takes few rounds, and a short one few
         # checks in vain.

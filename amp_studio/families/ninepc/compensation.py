@@ -32,7 +32,7 @@ _FARTHEST = 10**6
 _STEP = Fraction(1, 10**DECIMALS)
 
 
-class NinePcTable:
+class _NinePcTable:
     """The points of an axis with their deviations, which are measured less target (page 36-7)."""
 
     parameter = "calibration.table"
@@ -273,7 +273,7 @@ def _gentle(points: list[tuple[Fraction, Fraction]], *, reverse: bool) -> list[t
 
 COMPENSATION = Compensation(
     reversal="servo.reversal_error",
-    table=NinePcTable(),
+    table=_NinePcTable(),
     pages=(
         TuningPage(
             "reversal",

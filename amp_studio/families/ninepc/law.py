@@ -45,12 +45,12 @@ from .law_zones import zones
 if TYPE_CHECKING:
     from amp_studio.sim import Scenario
 
-LOWEST_FILTER = 40.0
+_LOWEST_FILTER = 40.0
 """Hz: a torque filter below it leaves no velocity loop that is of use."""
-LONGEST_CYCLE = 1000.0
+_LONGEST_CYCLE = 1000.0
 """ms; 30 is the longest one printed (7-4)."""
 
-SOURCES = {
+_SOURCES = {
     "position_gain": Source(ids.initial_gain, page="7-25"),
     "inposition_band": Source(ids.inposition_band, page="7-24"),
     "gain_break_point": Source(ids.gain_break_point, page="7-22"),
@@ -240,8 +240,8 @@ def _common(
         read,
         ids.sercos_cycle,
         cycle,
-        cycle <= LONGEST_CYCLE,
-        f"must be {LONGEST_CYCLE:g} ms or less",
+        cycle <= _LONGEST_CYCLE,
+        f"must be {_LONGEST_CYCLE:g} ms or less",
         everywhere=True,
     )
     ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, assumptions)
@@ -257,8 +257,8 @@ def _common(
         "ramps": ramps,
         "follow": follow,
         "gains": ("velocity_proportional_gain", "velocity_integral_gain", "position_gain"),
-        "filters": (LoopFilter("torque_filter", FILTER_OFF, LOWEST_FILTER),),
-        "sources": {name: _bounded(source, kind.unit) for name, source in SOURCES.items()},
+        "filters": (LoopFilter("torque_filter", FILTER_OFF, _LOWEST_FILTER),),
+        "sources": {name: _bounded(source, kind.unit) for name, source in _SOURCES.items()},
     }
 
 

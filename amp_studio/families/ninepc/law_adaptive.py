@@ -44,21 +44,22 @@ from .law_facts import ids
 from .law_reading import if_set
 from .law_split import slave_named, slave_of
 
-SETTINGS = {
+_SETTINGS = {
     "move.feedrate": "programmed feedrate (mm/min or deg/min); default: 500",
     "move.torque": "torque of the G25 block (% of rated torque); default: 30",
     "move.cut_torque": "torque of the cut at the programmed feedrate (% of rated torque); default: 30",
     "move.harder": "how many times that it takes from half way on; default: 1.5",
 }
 DEFAULTS = {"move.feedrate": 500.0, "move.torque": 30.0, "move.cut_torque": 30.0, "move.harder": 1.5}
-ITERATION, DURATION = 0.02, 4.0
+_ITERATION, _DURATION = 0.02, 4.0
 """s between two changes of the feedrate, and of the whole run."""
-NEAR = 0.05
+_NEAR = 0.05
 """Share of the torque of the block within which it is reached."""
-NOT_REACHED = Alarm(
+_NOT_REACHED = Alarm(
     "TORQUE NOT REACHED",
-    DURATION,
-    f"The torque does not stay within {100.0 * NEAR:g} % of that of the block: lower both gains (30-1, 30-2)",
+    _DURATION,
+    f"The torque does not stay within {100.0 * _NEAR:g} % of that of the block: lower both gains (30-1,"
+    " 30-2)",
 )
 """Ours: the manual prints no message for it."""
 ASSUMED = (
@@ -71,9 +72,9 @@ ASSUMED = (
 )
 
 
-def run_adaptive_feed(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
+def _run_adaptive_feed(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Cut with one axis; raises SimulationError for impossible settings and an axis without the feature."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     axis = machine.axis(machine.one_chosen("adaptive-feed"))
     asked = {name: above_zero(settings, name) or default for name, default in DEFAULTS.items()}
     _refuse(machine, axis)
@@ -87,7 +88,7 @@ def run_adaptive_feed(machine: BoundMachine, settings: ScenarioSettings) -> Trac
         units=column_units(axis),
         result=result,
         alarms=alarms_of(axis, motion)
-        or (() if result["time_off_torque"][0] is not None else (NOT_REACHED,)),
+        or (() if result["time_off_torque"][0] is not None else (_NOT_REACHED,)),
         assumptions=(*ASSUMED, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
         move=asked,
@@ -114,13 +115,13 @@ def _cut(machine: BoundMachine, axis: AxisLaw, asked: dict[str, float]) -> Motio
 
     moving = MovingAxis(replace(axis, machine=cut(max(1.0, asked["move.harder"]))))
     top = if_set(read, ids.max_cutting) / 60.0 or math.inf
-    total, velocity, moments = 0.0, feed, round(DURATION / ITERATION)
+    total, velocity, moments = 0.0, feed, round(_DURATION / _ITERATION)
     for n in range(moments):
         if n in (0, moments // 2):
             moving.change(cut(asked["move.harder"] if n else 1.0))
         # An axis at rest would take no torque, and never move again: a thousandth of the feedrate.
         moving.begin(_order(min(max(velocity, 0.001 * feed), top), ramp))
-        moving.advance(ITERATION)
+        moving.advance(_ITERATION)
         if moving.is_over:
             break
         error = asked["move.torque"] - abs(moving.torque)
@@ -130,17 +131,17 @@ def _cut(machine: BoundMachine, axis: AxisLaw, asked: dict[str, float]) -> Motio
 
 
 def _order(velocity: float, ramp: Ramp) -> Generator[GoOrder, Seen | None, None]:
-    yield GoOrder(velocity, ramp, Watch(math.inf, 1.0), 2.0 * ITERATION * velocity)
+    yield GoOrder(velocity, ramp, Watch(math.inf, 1.0), 2.0 * _ITERATION * velocity)
 
 
 def _figures(axis: AxisLaw, motion: Motion, block: float) -> dict[str, Figure]:
     """Return torque and feedrate before and after the cut becomes harder, and how long the torque is off."""
     columns = motion.columns
-    cut = slice(0, int(np.searchsorted(columns["time_s"][motion.driven], DURATION)))  # no rest behind it
+    cut = slice(0, int(np.searchsorted(columns["time_s"][motion.driven], _DURATION)))  # no rest behind it
     times, torque = columns["time_s"][cut], np.abs(columns["torque"][cut])
     feed = columns["velocity"][cut] * 60.0
-    middle = min(int(np.searchsorted(times, DURATION / 2.0)), len(times) - 1)
-    off = np.flatnonzero(np.abs(torque[middle:] - block) > NEAR * block)
+    middle = min(int(np.searchsorted(times, _DURATION / 2.0)), len(times) - 1)
+    off = np.flatnonzero(np.abs(torque[middle:] - block) > _NEAR * block)
     settled = off.size == 0 or off[-1] < len(torque) - middle - 2
     wait = (float(times[middle + off[-1]] - times[middle]) if off.size else 0.0) if settled else None
 
@@ -161,8 +162,8 @@ def _figures(axis: AxisLaw, motion: Motion, block: float) -> dict[str, Figure]:
 SCENARIO = Scenario(
     "adaptive-feed",
     "A cut becomes harder, and the feedrate follows so that the torque stays that of the block (G25)",
-    SETTINGS,
-    run_adaptive_feed,
+    _SETTINGS,
+    _run_adaptive_feed,
     gains=False,
     of_machine=True,
 )

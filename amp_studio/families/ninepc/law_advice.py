@@ -13,11 +13,11 @@ from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down,
 from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time
 
-RESERVE = 0.8
+_RESERVE = 0.8
 """Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear.
 A choice of this program."""
-ORDER_COST = "Less is left for a faster move or a lower gain."
-SLOWER = "Every change of speed takes longer."
+_ORDER_COST = "Less is left for a faster move or a lower gain."
+_SLOWER = "Every change of speed takes longer."
 LOOSE = 2.0
 """Ratio of excess error to the recommended one from which it is too large. A choice of this program."""
 
@@ -123,7 +123,7 @@ def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
             f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the"
             " error."
         )
-    price = "A blocked axis is detected later." if now < wanted else ORDER_COST
+    price = "A blocked axis is detected later." if now < wanted else _ORDER_COST
     yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
@@ -137,14 +137,14 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
         return
     limits = "each limit of the following error must not be above the next one"
     why = f"Lower the feedrate suppression point together with the excess error: {limits}."
-    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, ORDER_COST)
+    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, _ORDER_COST)
     point = m.axis.limits.get("gain break point", math.inf)
     cutting = m.p[samples.CUTTING] or 0.5 * m.feedrate
     # Not below two in-position bands: the break must not come into the band in which the axis rests.
     wanted = max(cutting / m.loop.rate, 2.0 * m.axis.inposition_band)
     if highest <= point < math.inf and wanted < highest:
         why = f"Lower the gain break point too, to the following error at the cutting feedrate: {limits}."
-        yield from m.advise("gain_break_point", wanted, m.axis.unit, why, ORDER_COST)
+        yield from m.advise("gain_break_point", wanted, m.axis.unit, why, _ORDER_COST)
 
 
 def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
@@ -185,21 +185,21 @@ def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
         return  # the move was not made with the linear ramp of the axis
     # Of two ramps the steeper one uses the most torque; a change of the other would change nothing.
     steeper = "linear_deceleration" if ramp.deceleration > ramp.acceleration else "linear_acceleration"
-    available = RESERVE * _available(m)
+    available = _RESERVE * _available(m)
     limited = _time_at_limit(m)
     if limited > 0.0 and now > available > 0.0:
         why = (
             f"The torque was at its limit for {value_text(limited, 's', 3)} with {value_text(now, unit)};"
             f" {value_text(available, unit)} is 80 % of what the torque allows at {m.speed(m.feedrate)}."
         )
-        yield from m.advise(steeper, min(available, natural), unit, why, SLOWER, up=False)
+        yield from m.advise(steeper, min(available, natural), unit, why, _SLOWER, up=False)
     elif now > natural:
         why = (
             f"A ramp of {value_text(now, unit)} is steeper than the servo's response of"
             f" {value_text(1000.0 * response_time(m.loop), 'ms')} to {m.speed(speed)} and acts like a step in"
             f" speed; the axis can follow up to {value_text(natural, unit)}."
         )
-        yield from m.advise(steeper, natural, unit, why, SLOWER, up=False)
+        yield from m.advise(steeper, natural, unit, why, _SLOWER, up=False)
 
 
 def _available(m: SimulatedMove) -> float:

@@ -37,7 +37,7 @@ class Channel:
 
 
 CHANNELS = (Channel("86", "2", "1.1"), Channel("87", "3", "2.1"))
-SIGNALS = {
+_SIGNALS = {
     100: samples.VELOCITY_FEEDBACK,
     200: samples.FOLLOWING_ERROR,
     300: samples.INTEGRAL_TORQUE,
@@ -56,7 +56,7 @@ INFERRED = {
         " belong to; the manual has its name alone (A-6)."
     ),
 }
-OF_ANALOG = (200, 500)
+_OF_ANALOG = (200, 500)
 """Those that an analog servo has, too (A-6)."""
 
 NOTE = (
@@ -128,8 +128,8 @@ def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]
     if str(axis) != read.axis:
         notes.append(f"{place}: it shows axis {axis}, so it is no column of axis {read.axis}.")
         return None
-    if drive == "analog" and function not in OF_ANALOG:
+    if drive == "analog" and function not in _OF_ANALOG:
         raise SimulationError(
             f"{place}: an analog servo has no such signal (A-6). Take 200 or 500", ids.dac_monitor
         )
-    return SIGNALS[function]
+    return _SIGNALS[function]

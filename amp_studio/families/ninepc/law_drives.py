@@ -29,27 +29,27 @@ from .law_units import (
     torque_for,
 )
 
-RATIOS = ("r0", "r1", "r2", "r3")
+_RATIOS = ("r0", "r1", "r2", "r3")
 FRICTION = {
     ids.friction_threshold: samples.THRESHOLD,
     ids.stiction_torque: samples.STICTION,
     ids.friction_positive: samples.FRICTION_POSITIVE,
     ids.friction_negative: samples.FRICTION_NEGATIVE,
 }
-OWN_ACCELERATION, OWN_GAIN = "model.acceleration_per_output", "model.position_gain"
-OWN_DELAY, OWN_BANDWIDTH = "model.delay", "model.current_bandwidth"
+_OWN_ACCELERATION, _OWN_GAIN = "model.acceleration_per_output", "model.position_gain"
+_OWN_DELAY, _OWN_BANDWIDTH = "model.delay", "model.current_bandwidth"
 
 FILTER_OFF = 10000.0
 """Hz: as high as possible is off (7-69)."""
-BRAKES = 2.0
+_BRAKES = 2.0
 """s of regenerative braking after an E-stop (appendix A, overview)."""
 VOLTS = 10.0
 """V: the end of the analog output (7-41)."""
-DRIVE_RATIO = MOTION.value("drive_ratio")
+_DRIVE_RATIO = MOTION.value("drive_ratio")
 """Velocity loop of an analog drive / position loop (10923 / 65536 per ms to gain / 60 per ms)."""
-USUAL_PITCH = MOTION.value("usual_pitch")
+_USUAL_PITCH = MOTION.value("usual_pitch")
 """mm"""
-USUAL_GAIN = MOTION.value("usual_gain")
+_USUAL_GAIN = MOTION.value("usual_gain")
 """Initial Gain."""
 
 
@@ -82,7 +82,7 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     p[samples.TORQUE_UNIT] = torque_for(1.0, travel)
     # A whole number of velocity samples in a SERCOS cycle, next to the inferred 1 ms.
     p[samples.PERIOD] = common["servo_period"] / max(1, round(common["servo_period"] / VELOCITY_PERIOD))
-    delay, bandwidth = if_set(read, OWN_DELAY, 1e3 * DELAY) / 1e3, if_set(read, OWN_BANDWIDTH, CURRENT_LOOP)
+    delay, bandwidth = if_set(read, _OWN_DELAY, 1e3 * DELAY) / 1e3, if_set(read, _OWN_BANDWIDTH, CURRENT_LOOP)
     # ``_torque`` sets limits and filter in ``p``: what follows reads them.
     lag = lag_of(delay, bandwidth, _torque(read, p, notes))
     rate = 0.0 if p[samples.OPEN] else loop.rate
@@ -127,15 +127,15 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         output_unit="%",
         assumptions=tuple(notes),
         assumed=assumed,
-        brakes=BRAKES,
+        brakes=_BRAKES,
     )
 
 
 def _inertia(read: AxisParameters, motor: str, ratio: int, travel: float) -> Inertia:
     """Return what the axis accelerates with: as it is set, as its motor is set, or as it is assumed."""
-    own = read.optional(OWN_ACCELERATION)
+    own = read.optional(_OWN_ACCELERATION)
     if own is not None:
-        demand(read, OWN_ACCELERATION, own, own > 0.0, "must be above 0")
+        demand(read, _OWN_ACCELERATION, own, own > 0.0, "must be above 0")
         return Inertia(100.0 * own * 2.0 * math.pi / travel, "")
     torque, inertia = (
         above_zero(read, name) if read.is_overridden(name) else None for name in (OWN_TORQUE, OWN_INERTIA)
@@ -166,13 +166,13 @@ def _linear(p: list[float]) -> list[float]:
 def _inertia_ratio(read: AxisParameters) -> int:
     """Return the load's side of Load Inertia Ratio (7-71)."""
     key = str(read.value(ids.load_inertia_ratio) or "r0")
-    if key not in RATIOS:
+    if key not in _RATIOS:
         raise SimulationError(
             f"{read.called(ids.load_inertia_ratio)} of axis {read.axis} is '{key}', not one of"
-            f" {', '.join(RATIOS)}",
+            f" {', '.join(_RATIOS)}",
             ids.load_inertia_ratio,
         )
-    return RATIOS.index(key)
+    return _RATIOS.index(key)
 
 
 def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tuple[float, float]:
@@ -277,7 +277,7 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
     machine = Machine(
         acceleration_per_output=acceleration,
         velocity_per_output=rapid / positive,
-        velocity_bandwidth=DRIVE_RATIO * USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
+        velocity_bandwidth=_DRIVE_RATIO * _USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
         output_limit=VOLTS,
         torque_limit_positive=peak,
         torque_limit_negative=peak,
@@ -351,9 +351,9 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     """Return an axis with a third-party SERCOS drive: as far as the file goes,
     with the gain of most machines (7-2, 7-25).
     """
-    own = read.optional(OWN_GAIN)
-    gain = USUAL_GAIN if own is None else own
-    demand(read, OWN_GAIN, gain, gain > 0.0, "must be above 0")
+    own = read.optional(_OWN_GAIN)
+    gain = _USUAL_GAIN if own is None else own
+    demand(read, _OWN_GAIN, gain, gain > 0.0, "must be above 0")
     loop = Loop(gain, math.inf, 1.0, 0.0)
     p = [0.0] * samples.SIZE
     p[samples.GAIN], p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.rate, math.inf, 1.0
@@ -361,10 +361,10 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     # The output is u/s itself: the drive gets velocities as numbers over the ring, without a scale of
     # volts.
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
-    turn = 360.0 if unit == "deg" else USUAL_PITCH
+    turn = 360.0 if unit == "deg" else _USUAL_PITCH
     why = (
         f"The position gain of the drive is taken as {value_text(gain)}, that of most machines (7-25); set"
-        f" {OWN_GAIN}."
+        f" {_OWN_GAIN}."
     )
     assumed = MOTION.reasons(velocity_bandwidth="drive_ratio") | {
         "acceleration_per_output": (
@@ -385,7 +385,7 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
         machine=Machine(
             acceleration_per_output=acceleration_for(NOMINAL, turn),
             velocity_per_output=1.0,
-            velocity_bandwidth=DRIVE_RATIO * USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
+            velocity_bandwidth=_DRIVE_RATIO * _USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
         ),
         output_unit=f"{unit}/s",
         assumptions=(notes_of.THIRD_PARTY, *((f"ASSUMED: {why}",) if own is None else ())),

@@ -10,11 +10,11 @@ from .law_facts import ids
 from .law_feedback import Feedback
 from .law_reading import above_zero, if_set
 
-SIGN = {"plus": 1.0, "positive": 1.0, "minus": -1.0, "negative": -1.0}
+_SIGN = {"plus": 1.0, "positive": 1.0, "minus": -1.0, "negative": -1.0}
 JOGS = ("lowest", "second", "third", "fourth", "highest")
 INCREMENTS = ("smallest", "second", "third", "fourth", "largest")
 
-HOMED = (
+_HOMED = (
     (
         "The axis has not been homed: G28 searches at G28 Home Speed in G28 Direction to Home (5-13), a"
         " manual homing at the jog speed (5-3); from the switch on both are the same (steps 3 to 10, 5-3 and"
@@ -29,7 +29,7 @@ HOMED = (
         " calls homing exponential)."
     ),
 )
-TOO_FAST = Failure(
+_TOO_FAST = Failure(
     "JOGGED HOME TOO FAST:",
     "The axis passed the whole switch before it stopped: it is too fast for it (page 5-4)",
 )
@@ -48,14 +48,14 @@ CODED = (
         " not printed."
     ),
 )
-STOPPED = (
+_STOPPED = (
     "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past"
     " it by its following error (10-18). ASSUMED: a programmed move is stopped in the same way, which is not"
     " printed."
 )
-ZONE_PAGE = "6-3 and 6-7"
+_ZONE_PAGE = "6-3 and 6-7"
 """While the logic program requests it, in positioning moves; jogs are not slowed (9-6)."""
-ZONES = (
+_ZONES = (
     "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and"
     " is stopped there as at an overtravel; for zones no stop is printed (6-3)."
 )
@@ -86,20 +86,20 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
     """
     if read.choice(ids.position_feedback_type) == "dcm":
         return _coded(read)
-    off = SIGN[read.choice(ids.direction_off_switch)]
+    off = _SIGN[read.choice(ids.direction_off_switch)]
     speed = above_zero(read, ids.speed_off_switch) / 60.0
     return Homing(
-        approach=SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
+        approach=_SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
         leave=off * speed,
         marker="nearest",
         turn=feedback.position_count * above_zero(read, ids.position_counts),
         coordinate=read.number(ids.home_position),
         final=speed,
         offset=read.optional(ids.home_calibration) or 0.0,
-        failures={"fast": TOO_FAST},
+        failures={"fast": _TOO_FAST},
         speeds={"approach": ids.g28_speed, "leave": ids.speed_off_switch, "final": ids.speed_off_switch},
         page="5-4",
-        notes=HOMED,
+        notes=_HOMED,
     )
 
 
@@ -115,7 +115,7 @@ def _coded(read: AxisParameters) -> Homing:
         )
     return Homing(
         approach=0.0,
-        leave=SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
+        leave=_SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
         marker="next",
         turn=small,
         coordinate=read.number(ids.home_position),
@@ -146,12 +146,12 @@ def travel(read: AxisParameters) -> Travel:
     """Return the software overtravels (6-10, 6-11), if they are used."""
     zones = _zones(read)
     if read.value(ids.overtravel_used) is not True:
-        return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_page=ZONE_PAGE, zone_note=ZONES)
+        return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_page=_ZONE_PAGE, zone_note=_ZONES)
     low, high = (read.optional(ids[f"zone_overtravel_{side}"]) for side in ("negative", "positive"))
     # An end that is not set stops nothing on its side.
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
-        STOPPED,
+        _STOPPED,
         (
             "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on"
             " the measured position."
@@ -159,7 +159,7 @@ def travel(read: AxisParameters) -> Travel:
     )
     slow = (read.optional(ids.external_decel_positioning) or 0.0) / 60.0
     return Travel(
-        {"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONE_PAGE, ZONES, slow=slow
+        {"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, _ZONE_PAGE, _ZONES, slow=slow
     )
 
 

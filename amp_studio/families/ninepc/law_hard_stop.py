@@ -36,39 +36,39 @@ from amp_studio.sim import (
 
 from .law_facts import ids
 
-SETTINGS = {
+_SETTINGS = {
     "move.feedrate": "feedrate against the stop (mm/min or deg/min); default: 100",
     "stop.stiffness": "torque for 1 mm or 1 deg into the stop (% of rated torque); default: 1000",
 }
-FEEDRATE, STIFFNESS = 100.0, 1000.0
-TOUCHING = (
+_FEEDRATE, _STIFFNESS = 100.0, 1000.0
+_TOUCHING = (
     "The axis begins at the stop, which is a spring without friction: what the axis does before, and that a"
     " stop can be hit, is not in it."
 )
-ASSUMED_STOP = (
+_ASSUMED_STOP = (
     "ASSUMED: 100 % of rated torque press the axis 0.1 mm or deg into the stop (set stop.stiffness)."
 )
-NOT_FOUND = "NO HARD STOP"
+_NOT_FOUND = "NO HARD STOP"
 """Ours: what a 9/PC shows where G24 finds no stop is not printed in this manual."""
-FARTHER = 3.0
+_FARTHER = 3.0
 """Ways to the detection that are commanded, at most."""
-LONGEST = 30.0
+_LONGEST = 30.0
 """s"""
 
 
-def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
+def _run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Feed one axis against a stop; raises SimulationError for impossible settings and torques that are not
     set.
     """
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     axis = machine.axis(machine.one_chosen("hard-stop"))
     read = machine.read(axis.axis)
     detection, holding = read.number(ids.hard_stop_detection), read.number(ids.hard_stop_holding)
     if axis.machine.velocity_per_output > 0.0:
         raise SimulationError("The 9/PC must close the velocity loop for feed to hard stop (7-65)")
-    speed = (above_zero(settings, "move.feedrate") or FEEDRATE) / 60.0
+    speed = (above_zero(settings, "move.feedrate") or _FEEDRATE) / 60.0
     given = above_zero(settings, "stop.stiffness")
-    stiffness = given or STIFFNESS
+    stiffness = given or _STIFFNESS
     motion = _pressed(axis, detection, stiffness, speed)
     torque = np.abs(motion.columns["torque"])
     found = np.flatnonzero(torque >= detection)
@@ -82,7 +82,7 @@ def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
             f"The torque ends at {torque.max():.0f} %, below Hard Stop Detection Torque, {detection:g} %"
             " (7-65): the stop is never found"
         )
-        alarms = (Alarm(NOT_FOUND, float(motion.columns["time_s"][-1]), text),)
+        alarms = (Alarm(_NOT_FOUND, float(motion.columns["time_s"][-1]), text),)
     return Trace(
         scenario="hard-stop",
         axis=axis.axis,
@@ -91,7 +91,7 @@ def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, motion, row, (detection, holding, stiffness)),
         alarms=alarms,
-        assumptions=(TOUCHING, *(() if given else (ASSUMED_STOP,)), *assumptions(axis)),
+        assumptions=(_TOUCHING, *(() if given else (_ASSUMED_STOP,)), *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
         move={"move.feedrate": speed * 60.0, "stop.stiffness": stiffness},
     )
@@ -101,9 +101,9 @@ def _pressed(axis: AxisLaw, detection: float, stiffness: float, speed: float) ->
     """Move from the stop on, farther than the detection needs with the following error that this takes."""
     against = replace(axis, machine=replace(axis.machine, spring=stiffness), after=None)
     # The following error is part of the way: the axis is late by it while it presses.
-    way = FARTHER * (detection / stiffness + max(axis.limits.values(), default=1.0))
+    way = _FARTHER * (detection / stiffness + max(axis.limits.values(), default=1.0))
     ramp = next(iter(axis.ramps.values()))
-    profile = move(min(way, speed * LONGEST), speed, ramp)
+    profile = move(min(way, speed * _LONGEST), speed, ramp)
     return run_axis(against, profile, RunEnd(end_of(profile)))
 
 
@@ -131,8 +131,8 @@ def _figures(
 SCENARIO = Scenario(
     "hard-stop",
     "An axis is fed against a fixed stop until its torque finds it (G24)",
-    SETTINGS,
-    run_hard_stop,
+    _SETTINGS,
+    _run_hard_stop,
     gains=False,
     of_machine=True,
     part="probing",

@@ -10,12 +10,12 @@ from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, 
 
 from .law_facts import ids
 
-PRINTED = 127.0
+_PRINTED = 127.0
 """mm: 5 inches (A-8)."""
-REPEATS = 6
+_REPEATS = 6
 ROOM = 0.8
 """Share of the travel that a move may take."""
-FEED = ids.max_cutting
+_FEED = ids.max_cutting
 
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
@@ -23,19 +23,22 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
     refused where the travel is too short to reach it.
     """
     letter = machine.letter(axis.axis) or axis.axis
-    feed = machine.read(axis.axis).optional(FEED) or (axis.feedrate or 0.0) * 60.0
+    feed = machine.read(axis.axis).optional(_FEED) or (axis.feedrate or 0.0) * 60.0
     title, page = "Tuning program: the axis reverses at its highest cutting feedrate", "A-8"
     if not feed:
         return [
             MachineTest(
-                "tuning", title, page, refusal=f"Neither {FEED} nor a rapid feedrate of axis {letter} is set."
+                "tuning",
+                title,
+                page,
+                refusal=f"Neither {_FEED} nor a rapid feedrate of axis {letter} is set.",
             )
         ]
     rate = next(iter(axis.ramps.values())).acceleration
     # Both ramps take v² / a; the half of it again is the constant speed on which overshoot shows.
     needs = (feed / 60.0) ** 2 / rate * 1.5 if rate else 0.0
     room = _room(axis)
-    way = min(max(PRINTED, needs), ROOM * room)
+    way = min(max(_PRINTED, needs), ROOM * room)
     if way < needs:
         why = (
             f"Axis {letter} needs {value_text(needs, axis.unit)} to reach "
@@ -51,7 +54,7 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
         f"N00005 {letter}-{_word(way)};",
         "N00006 G04 P1;",
         "N00007 #100=#100+1;",
-        f"N00008 IF [#100 LT {REPEATS}] GOTO 3;",
+        f"N00008 IF [#100 LT {_REPEATS}] GOTO 3;",
         "N00009 M02;",
     )
     start = f"Jog axis {letter} to where {value_text(way, axis.unit)} in the plus direction are free"
@@ -59,7 +62,7 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
         MachineTestStep(start, f"{letter} is inside its overtravels with that way in front of it"),
         MachineTestStep(
             "Output velocity feedback on the DAC monitor, and run the program",
-            f"{REPEATS} moves each way at {value_text(feed, f'{axis.unit}/min')}",
+            f"{_REPEATS} moves each way at {value_text(feed, f'{axis.unit}/min')}",
         ),
         MachineTestStep(
             "Look at the velocity of one reversal",

@@ -73,12 +73,12 @@ THIRD_PARTY = (
     "A third-party SERCOS drive closes both loops with settings that are not in this file (7-2): no limit of"
     " the following error, no gain and no device of this axis is known."
 )
-SMOOTH = (
+_SMOOTH = (
     "With the integral gain at 0 appendix A (A-9) shows a smooth overshoot of large systems: with the"
     " position loop closed over a motor encoder this model does not give it (a soft load does, on a linear"
     " scale or with the position loop open)."
 )
-UNUSUAL_MOTOR = (
+_UNUSUAL_MOTOR = (
     "The cells of the 7xx motors in Tables 7.B and 7.C (7-55, 7-56) do not fit the unit of the gains: the"
     " proportional one is 120 to 220 times the integral one, 14 to 25 times for all others. Take the results"
     " of this motor as rough."
@@ -115,9 +115,9 @@ def gain_notes(
     if loop > 0.0 and loop >= highest:
         notes.append(f"The velocity loop is not stable: {_why_unstable(loop, lag, highest)}")
     if motor[:2] in UNUSUAL_FRAMES:
-        notes.append(UNUSUAL_MOTOR)
+        notes.append(_UNUSUAL_MOTOR)
     if integral == 0.0 and rate > 0.0:
-        notes.append(SMOOTH)
+        notes.append(_SMOOTH)
     return notes
 
 

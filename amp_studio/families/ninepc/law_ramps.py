@@ -7,7 +7,7 @@ from amp_studio.sim import AxisParameters, Ramp, SimulationError, value_text
 from .law_facts import ids
 from .law_reading import LARGEST, SMALLEST, demand, if_set, not_negative
 
-SHORTEST, LONGEST = 2, 60
+_SHORTEST, _LONGEST = 2, 60
 """Scans of an S-curve filter (10-19)."""
 
 
@@ -46,7 +46,7 @@ def jerk_bounds(ramp: float, scan: float) -> tuple[float, float]:
     """Return the least and the greatest jerk in u/s3 for a ramp in u/s2 and a scan in s:
     ramp / time of 60 and of 2 scans (10-20).
     """
-    return ramp / (LONGEST * scan), ramp / (SHORTEST * scan)
+    return ramp / (_LONGEST * scan), ramp / (_SHORTEST * scan)
 
 
 def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, float | None]:

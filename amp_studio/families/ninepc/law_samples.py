@@ -66,7 +66,7 @@ LAST_MOTOR, ERROR_SUM, FILTERED, SAMPLE = 5, 6, 7, 8
 """u; u/s; %; number of servo samples so far."""
 STATE_SIZE = 9
 
-ALMOST = 1.0 - 1e-9
+_ALMOST = 1.0 - 1e-9
 """Whole counts times the length of a count are that many counts, whatever the last bit is."""
 
 # -- alarms and monitors ---------------------------------------------------------------------------
@@ -98,7 +98,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     error, velocity = io[MONITOR + 3], io[COMMAND_VELOCITY]
     # At rest friction still has to be overcome, in the direction in which the axis is late.
     direction = velocity if velocity != 0.0 else error
-    reached = direction != 0.0 and abs(error) >= p[THRESHOLD] * p[COUNT] * ALMOST
+    reached = direction != 0.0 and abs(error) >= p[THRESHOLD] * p[COUNT] * _ALMOST
     above = 1.0 if reached else 0.0
     size = p[FRICTION_POSITIVE] if direction > 0.0 else p[FRICTION_NEGATIVE]
     if above > s[ABOVE]:

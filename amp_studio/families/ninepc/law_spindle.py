@@ -16,26 +16,26 @@ from amp_studio.sim import (
 
 from .law_facts import MOTION, ids
 
-GEARS = 8
-PER_GAIN = 1000.0 / 60.0
+_GEARS = 8
+_PER_GAIN = 1000.0 / 60.0
 """1/s for a gain of 1 rpm in 0.001 revolutions (12-15)."""
-RAMPED = (
+_RAMPED = (
     "The ramp takes Acceleration Time up to Maximum Tapping Speed with the solid tapping option, else Dev."
     " Detection Filter Time up to Max. Spindle Speed (12-3); its table names the ramp parameter itself for"
     " the second, which is a slip. ASSUMED: the option is there where Acceleration Time is set."
 )
-STEPPED = "Spindle DAC Output Ramping is off: the output changes in one step (12-3)."
-SHARED = "ASSUMED: the output is in proportion to the speed, to Voltage at Max at Max. Spindle Speed (12-5)."
-NO_GEARS = (
+_STEPPED = "Spindle DAC Output Ramping is off: the output changes in one step (12-3)."
+_SHARED = "ASSUMED: the output is in proportion to the speed, to Voltage at Max at Max. Spindle Speed (12-5)."
+_NO_GEARS = (
     "A gear that is used has no legal minimum and maximum speed, or no tapping values: the control takes it"
     " that no gears are there and never requests one (12-8, 27-2)"
 )
-TAPPED = (
+_TAPPED = (
     "While tapping, the lower gain and the lower acceleration of axis and spindle are those of both (12-15,"
     " 27-2)."
 )
 FORCED = "The axis has zero following error: the spindle is forced to the same loop and feed-forward (27-1)."
-SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
+_SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
 
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
@@ -43,7 +43,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     names = [str(n) for n in range(1, _gear_count(read, number) + 1)]
     gears = tuple(gear for name in names if (gear := _gear(read, number, name)) is not None)
     ramped = read.value(ids.dac_ramping, at=number) is True
-    notes = (SHARED, RAMPED if ramped else STEPPED)
+    notes = (_SHARED, _RAMPED if ramped else _STEPPED)
     # The code of a gear that is not requested is ours: the control shows none.
     return Spindle(
         number,
@@ -55,7 +55,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
         iteration=_logic_scan(read) if ramped else 0.0,
         orient=_orient(read, number),
         watch=_watch(read, number),
-        refusal=NO_GEARS if len(gears) < len(names) else "",
+        refusal=_NO_GEARS if len(gears) < len(names) else "",
     )
 
 
@@ -67,7 +67,7 @@ def _gear_count(read: AxisParameters, number: str) -> int:
     count = read.optional(ids.gear_count, at=number)
     if count is None:
         raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)
-    return min(int(count), GEARS)
+    return min(int(count), _GEARS)
 
 
 def _logic_scan(read: AxisParameters) -> float:
@@ -97,7 +97,7 @@ def _gear(read: AxisParameters, number: str, name: str) -> Gear | None:
         output=10.0 if volts is None else volts,
         ramp_time=ramp_time,
         ramp_top=ramp_top,
-        gain=(read.optional(ids.spindle_gain, at=at) or 0.0) * PER_GAIN,
+        gain=(read.optional(ids.spindle_gain, at=at) or 0.0) * _PER_GAIN,
         tap_rate=top / 60.0 / (time / 1000.0) if time and top else 0.0,
         tap_speed=top or high,
     )
@@ -123,7 +123,7 @@ def _orient(read: AxisParameters, number: str) -> Orient | None:
     direction = read.value(ids.orient_direction, at=number)
     return Orient(
         speed,
-        SIGN.get(str(direction), 1.0),
+        _SIGN.get(str(direction), 1.0),
         read.optional(ids.marker_calibration, at=number) or 0.0,
         read.optional(ids.orient_angle, at=number) or 0.0,
         read.optional(ids.orient_inposition_band, at=number) or 0.0,
@@ -149,7 +149,7 @@ def tapping(machine: BoundMachine, _spindle: Spindle, gear: Gear, axis: AxisLaw,
     # The gain goes to the axis as its parameter, in the ratio of both loops: units cancel.
     overrides = {} if axis_gain is None or gain >= own else {ids.initial_gain: axis_gain * gain / own}
     forced = read.value(ids.position_loop_type) == "zfe"
-    notes = (TAPPED, FORCED) if forced else (TAPPED,)
+    notes = (_TAPPED, FORCED) if forced else (_TAPPED,)
     forward = (read.optional(ids.feed_forward) or 0.0) / 100.0 if forced else 0.0
     return Tapping(
         overrides,

@@ -35,13 +35,13 @@ JOINED = (
     " the motion of the other until none changes."
 )
 MASTER = "This servo is the master of a split axis (32-4); simulate axis {0} to see the skew."
-OWN_COUPLING = "model.coupling"
-STIFFEST = 1e9
+_OWN_COUPLING = "model.coupling"
+_STIFFEST = 1e9
 ROUNDS = 80
 """Runs of both servos until neither changes any more."""
-KEPT = 20
+_KEPT = 20
 """Motions that are mixed."""
-SAME = 0.2
+_SAME = 0.2
 """Counts that they may still change."""
 
 
@@ -83,9 +83,9 @@ def slave_named(read: AxisParameters) -> str | None:
 
 def coupling_of(read: AxisParameters) -> float:
     """Return the torque in % that a skew of 1 u brings on both loads, 0 for none."""
-    value = read.optional(OWN_COUPLING) or 0.0
-    if not 0.0 <= value <= STIFFEST:
-        raise SimulationError(f"{OWN_COUPLING} is {value:g}; it must be 0 to {STIFFEST:g}", OWN_COUPLING)
+    value = read.optional(_OWN_COUPLING) or 0.0
+    if not 0.0 <= value <= _STIFFEST:
+        raise SimulationError(f"{_OWN_COUPLING} is {value:g}; it must be 0 to {_STIFFEST:g}", _OWN_COUPLING)
     return value
 
 
@@ -160,7 +160,7 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
 
     import numpy as np  # most axes have one servo
 
-    same = SAME * max(master.machine.position_count, 1e-6)
+    same = _SAME * max(master.machine.position_count, 1e-6)
     given: list[Positions] = []
     answers: list[Positions] = []
     positions = np.zeros(0)
@@ -172,13 +172,13 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
             if float(np.max(np.abs(positions[:length] - answered[:length]))) < same:
                 return feels, goes
             # Older ones are of a problem that was farther away, and make the least squares worse.
-            given, answers = [*given, positions][-KEPT:], [*answers, answered][-KEPT:]
+            given, answers = [*given, positions][-_KEPT:], [*answers, answered][-_KEPT:]
         # The answer alone need not settle where the coupling is stiff: each servo answers too much.
         positions = _mixed(given, answers) if len(given) > 1 else answered
     raise SimulationError(
         f"The coupling of {stiffness:g} % for 1 {master.unit} is too stiff for these loops to be computed:"
         " give a smaller one",
-        OWN_COUPLING,
+        _OWN_COUPLING,
     )
 
 

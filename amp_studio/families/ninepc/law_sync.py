@@ -33,7 +33,7 @@ from .formulas.spindle_sync import synchronized_feedback_ratio, synchronized_spe
 from .law_facts import MOTION, ids
 from .law_spindle import spindle
 
-SETTINGS = {
+_SETTINGS = {
     "move.speed": "programmed speed (rpm), or highest",
     "move.from": "speed of both before (rpm); default: 0",
     "move.then": "speed after they are synchronized (rpm); default: the same",
@@ -43,35 +43,35 @@ SETTINGS = {
     "move.offset": "position offset of the block (deg); default: Default Position Offset",
     "move.drive_time": "time constant of both spindle drives (s); default: 0.05, assumed",
 }
-HIGHEST = "highest"
+_HIGHEST = "highest"
 STEP, DRIVE_TIME, SLOWEST = 0.001, 0.05, 10.0
 """s"""
-THIN = 5
+_THIN = 5
 """Steps from row to row."""
-LONGEST = 300.0
+_LONGEST = 300.0
 """s: the longest Seek Timeout (14-8)."""
 WATCHED, LATER = 0.5, 8.0
 """s in which the deviation is watched after the seek; time constants of the slower loop after a change."""
-AT_SPEED = 0.01
+_AT_SPEED = 0.01
 """Share of the speed within which both have it."""
-SEEKS = 0.25
+_SEEKS = 0.25
 """Share of its position loop with which the follower takes up the angle."""
-TO_DEG = 6.0
+_TO_DEG = 6.0
 """deg/s of 1 rpm."""
 MISCONFIGURED = "SYNCH SPINDLES MISCONFIGURED"
-DEVIATES, TIMEOUT = "BR_SYNE", "BW_SYNTO"
-LOOPS = (
+_DEVIATES, _TIMEOUT = "BR_SYNE", "BW_SYNTO"
+_LOOPS = (
     "Both spindles get the same commands (14-5), and each is behind by its speed over its gain (12-15)."
     " ASSUMED: each drive is a lag of {0}; nothing of the drive is in the file (move.drive_time)."
 )
-BEYOND = "{0} lies beyond the speeds that both gears have: both turn at {1}, with a warning (14-2)."
-SEEK = (
+_BEYOND = "{0} lies beyond the speeds that both gears have: both turn at {1}, with a warning (14-2)."
+_SEEK = (
     "ASSUMED: once both have the speed, the follower takes up the angle of the markers with a quarter of its"
     " position gain, inside of the speeds of its gear; they are synchronized when Seek Tolerance is kept, and"
     " the angle stays as it is from there. Seek Timeout counts from the command. How the control seeks is not"
     " printed (14-7)."
 )
-GAINED = (
+_GAINED = (
     "ASSUMED: Synch Gain times the difference of the following errors, as a share of that of the controlling"
     " spindle, is added to the gain of the follower; its unit is not printed (14-5)."
 )
@@ -119,9 +119,9 @@ COLUMNS = (
 )
 
 
-def run_synchronize(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
+def _run_synchronize(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Synchronize both spindles; raises SimulationError where the file has no pair that can be."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     machine.one_chosen("synchronize")
     first, second = _spindles(machine)
     asked = _asked(settings, first, second)
@@ -150,10 +150,14 @@ def run_synchronize(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         result=_figures(pair, speed, later, course),
         alarms=_alarms(pair, course),
         assumptions=(
-            *(() if asked == speed else (BEYOND.format(value_text(asked, "rpm"), value_text(speed, "rpm")),)),
-            LOOPS.format(value_text(pair.lag, "s")),
-            SEEK,
-            *((GAINED,) if pair.gain else ()),
+            *(
+                ()
+                if asked == speed
+                else (_BEYOND.format(value_text(asked, "rpm"), value_text(speed, "rpm")),)
+            ),
+            _LOOPS.format(value_text(pair.lag, "s")),
+            _SEEK,
+            *((_GAINED,) if pair.gain else ()),
         ),
         limits={"maximum deviation": (pair.deviation, "deg"), "seek tolerance": (pair.seek, "deg")},
     )
@@ -191,7 +195,7 @@ def _counts(machine: BoundMachine, name: str) -> float:
 def _asked(settings: ScenarioSettings, first: Spindle, second: Spindle) -> float:
     if settings.get("move.speed") is None:
         raise SimulationError("Give the programmed speed", "move.speed")
-    if settings["move.speed"] != HIGHEST:
+    if settings["move.speed"] != _HIGHEST:
         return above_zero(settings, "move.speed") or 0.0
     tops = [max((gear.high for gear in each.gears), default=0.0) for each in (first, second)]
     return min(tops)
@@ -268,7 +272,7 @@ class _Turning:
 
     def __init__(self, pair: SpindlePair, before: float, phase: float) -> None:
         self.pair, self.command, self.phase = pair, before, phase
-        self.first, self.second = (_Loop(gear.gain, pair.lag, before * TO_DEG) for gear in pair.gears)
+        self.first, self.second = (_Loop(gear.gain, pair.lag, before * _TO_DEG) for gear in pair.gears)
         self.apart: float | None = None
         """deg between the commands of both from the seek on; None before it."""
         self.extra = 0.0
@@ -285,8 +289,8 @@ class _Turning:
 
     def has_speed(self, speed: float) -> bool:
         """Return whether both have a speed, rpm."""
-        near = AT_SPEED * speed * TO_DEG
-        return all(abs(each.speed - speed * TO_DEG) <= near for each in (self.first, self.second))
+        near = _AT_SPEED * speed * _TO_DEG
+        return all(abs(each.speed - speed * _TO_DEG) <= near for each in (self.first, self.second))
 
     def step(self, aim: float, *, seeks: bool) -> None:
         """Turn both for one step towards a speed, rpm, and the angle of the markers."""
@@ -294,9 +298,9 @@ class _Turning:
         way = aim - self.command
         self.command += math.copysign(min(abs(way), STEP / ramp), way) if ramp else way
         extra = _seek(self.pair, self.command, self.deviation) if seeks and self.apart is not None else 0.0
-        self.first.step(self.command * TO_DEG, self.first.gain)
+        self.first.step(self.command * _TO_DEG, self.first.gain)
         raised = _raised(self.pair, self.first.error, self.second.error)
-        self.second.step(self.command * TO_DEG + extra, self.second.gain * raised)
+        self.second.step(self.command * _TO_DEG + extra, self.second.gain * raised)
         # What the follower is commanded beyond the controlling spindle takes the angle away.
         self.apart = None if self.apart is None else self.apart - extra * STEP
 
@@ -313,9 +317,9 @@ def _turned(pair: SpindlePair, before: float, speed: float, later: float, phase:
             ends += max(gear.ramp_time for gear in pair.gears)
         if course.found is not None:
             course.furthest = max(course.furthest, abs(turning.deviation))
-        if steps % THIN == 0:
+        if steps % _THIN == 0:
             course.rows.append(_row(turning, time))
-        if course.found is None and time >= min(pair.timeout, LONGEST):
+        if course.found is None and time >= min(pair.timeout, _LONGEST):
             break
         aim = later if course.found is not None and time >= course.found + WATCHED else speed
         turning.step(aim, seeks=course.found is None)
@@ -324,18 +328,18 @@ def _turned(pair: SpindlePair, before: float, speed: float, later: float, phase:
 
 
 def _row(turning: _Turning, time: float) -> tuple[float, ...]:
-    follower = turning.pair.sign * turning.second.speed / TO_DEG
-    return time, turning.command, turning.first.speed / TO_DEG, follower, turning.deviation, turning.errors
+    follower = turning.pair.sign * turning.second.speed / _TO_DEG
+    return time, turning.command, turning.first.speed / _TO_DEG, follower, turning.deviation, turning.errors
 
 
 def _seek(pair: SpindlePair, command: float, deviation: float) -> float:
     """Return what the follower turns faster, deg/s, to take up a deviation inside of its gear's speeds."""
     gear = pair.gears[1]
-    wanted = SEEKS * gear.gain * deviation
-    room = max((gear.high - command if wanted > 0.0 else command - gear.low) * TO_DEG, 0.0)
+    wanted = _SEEKS * gear.gain * deviation
+    room = max((gear.high - command if wanted > 0.0 else command - gear.low) * _TO_DEG, 0.0)
     if room == 0.0:  # the long way round
-        wanted = SEEKS * gear.gain * (deviation - math.copysign(360.0, deviation))
-        room = max((gear.high - command if wanted > 0.0 else command - gear.low) * TO_DEG, 0.0)
+        wanted = _SEEKS * gear.gain * (deviation - math.copysign(360.0, deviation))
+        room = max((gear.high - command if wanted > 0.0 else command - gear.low) * _TO_DEG, 0.0)
     return math.copysign(min(abs(wanted), room), wanted)
 
 
@@ -354,8 +358,8 @@ def _figures(pair: SpindlePair, speed: float, later: float, course: Course) -> d
         "follower_speed": (pair.sign * speed, "rpm"),
         "gear": (float(gears[0].name), ""),
         "follower_gear": (float(gears[1].name), ""),
-        "following_error": (speed * TO_DEG / gears[0].gain, "deg"),
-        "follower_following_error": (speed * TO_DEG / gears[1].gain, "deg"),
+        "following_error": (speed * _TO_DEG / gears[0].gain, "deg"),
+        "follower_following_error": (speed * _TO_DEG / gears[1].gain, "deg"),
         "seek_time": (course.found, "s"),
         "deviation": (None if course.found is None else course.furthest, "deg"),
         "deviation_at_end": (None, "deg") if course.found is None else (abs(last[4]), "deg"),
@@ -372,25 +376,25 @@ def _alarms(pair: SpindlePair, course: Course) -> tuple[Alarm, ...]:
         text = (
             f"The spindles are not synchronized within Seek Timeout, {value_text(pair.timeout, 's')} (14-8)"
         )
-        alarms.append(Alarm(TIMEOUT, end, text))
+        alarms.append(Alarm(_TIMEOUT, end, text))
     elif course.furthest > pair.deviation:
         text = (
             f"The markers are {value_text(course.furthest, 'deg')} apart after synchronization, more"
             f" than Maximum Deviation, {value_text(pair.deviation, 'deg')} (14-7)"
         )
-        alarms.append(Alarm(DEVIATES, course.found, text))
+        alarms.append(Alarm(_DEVIATES, course.found, text))
     return tuple(alarms)
 
 
 SCENARIO = Scenario(
     "synchronize",
     "Two spindles brought to one speed and angle, and their deviation afterwards",
-    SETTINGS,
-    run_synchronize,
+    _SETTINGS,
+    _run_synchronize,
     gains=False,
     of_machine=True,
     checked=("speed", "seek_time", "deviation"),
     once=True,
     part="spindle",
-    programmed={"move.speed": HIGHEST},
+    programmed={"move.speed": _HIGHEST},
 )

@@ -39,7 +39,7 @@ from amp_studio.sim import (
 from . import law_samples as samples
 from .law_notes import TUNING_START
 
-SETTINGS = {
+_SETTINGS = {
     "move.feedrate": "feedrate of the tuning move (mm/min or deg/min); default: Maximum Cutting Feedrate"
 }
 SLIGHT = 0.02
@@ -48,15 +48,15 @@ SWING = 0.5
 """Share of the torque limit through which the torque swings in an oscillation."""
 STEP = 1.1
 """Factor from one gain to the next one tried."""
-MAX_GAIN = 65535.0
+_MAX_GAIN = 65535.0
 """Both gains end there (7-54, 7-57)."""
-FIRST_INTEGRAL = 50.0
+_FIRST_INTEGRAL = 50.0
 """The first integral gain is the proportional one divided by this."""
-LONGEST = 30.0
+_LONGEST = 30.0
 """s of one tuning move."""
-WINDOW = 0.15
+_WINDOW = 0.15
 """s in which a swing is looked for."""
-BELOW = 0.8
+_BELOW = 0.8
 """Share of what the torque allows for the ramp: "slightly less" than the servo can do (A-2)."""
 
 
@@ -110,14 +110,14 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     axis = with_gains(axis, proportional, integral)
     limit = min(axis.parameters[samples.LIMIT_POSITIVE], axis.parameters[samples.LIMIT_NEGATIVE])
     lag = 1.0 / axis.position_rate
-    ramp = min(BELOW * limit * axis.machine.acceleration_per_output, feedrate / (2.0 * lag))
+    ramp = min(_BELOW * limit * axis.machine.acceleration_per_output, feedrate / (2.0 * lag))
     # Both ramps together, 0.8 s and five time constants of constant speed: long enough for an overshoot to
     # die away before the braking.
     profile = move(feedrate * (feedrate / ramp + 0.8 + 5.0 * lag), feedrate, Ramp("linear", ramp, ramp))
     end = end_of(profile)
-    if end > LONGEST:
+    if end > _LONGEST:
         raise SimulationError(
-            f"The tuning move of axis {axis.axis} takes {value_text(end, 's', 3)}; at most {LONGEST:g} s are"
+            f"The tuning move of axis {axis.axis} takes {value_text(end, 's', 3)}; at most {_LONGEST:g} s are"
             " simulated. Raise its position gain or torque limits"
         )
     motion = run_axis(axis, profile, RunEnd(end + 13.0 * lag), engine="compiled", thin=True)
@@ -126,8 +126,8 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     if motion.stop or time[-1] < end:
         return Chart(motion, math.inf, math.inf, math.inf)
     braking = end - feedrate / ramp
-    steady = (time > braking - WINDOW) & (time < braking)
-    rest = time > time[-1] - WINDOW
+    steady = (time > braking - _WINDOW) & (time < braking)
+    rest = time > time[-1] - _WINDOW
     return Chart(
         motion,
         float(velocity[time < braking].max()) / feedrate - 1.0,
@@ -144,10 +144,10 @@ def highest(axis: AxisLaw, feedrate: float) -> float:
     gain = TUNING_START
     while not chart(axis, feedrate, gain, 0.0).clean:  # underdamped at the start: too light or too heavy
         gain *= STEP
-        if gain > MAX_GAIN:
+        if gain > _MAX_GAIN:
             gain = _below(axis, feedrate, TUNING_START, 0.0)
             break
-    while gain * STEP <= MAX_GAIN and chart(axis, feedrate, gain * STEP, 0.0).clean:
+    while gain * STEP <= _MAX_GAIN and chart(axis, feedrate, gain * STEP, 0.0).clean:
         gain *= STEP
     return gain
 
@@ -176,8 +176,8 @@ def procedure(axis: AxisLaw, feedrate: float) -> Tuned:
     and the proportional one lowered in turn (steps 5 to 7).
     """
     first = proportional = highest(axis, feedrate)
-    integral, last = proportional / FIRST_INTEGRAL, 0.0
-    while (found := lowered(axis, feedrate, proportional, integral)) is not None and integral <= MAX_GAIN:
+    integral, last = proportional / _FIRST_INTEGRAL, 0.0
+    while (found := lowered(axis, feedrate, proportional, integral)) is not None and integral <= _MAX_GAIN:
         proportional, last, integral = found, integral, integral * STEP
     return Tuned(first, proportional, last, integral)
 
@@ -186,7 +186,7 @@ def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trac
     """Run the procedure; raises SimulationError for an axis without a digital velocity loop
     or a closed position loop.
     """
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     if axis.velocity_sample is None or axis.parameters[samples.OPEN]:
         raise SimulationError(
             f"Axis {axis.axis} has no digital velocity loop inside a closed position loop to tune (A-1)"
@@ -236,6 +236,6 @@ NOTE = (
 SCENARIO = Scenario(
     "procedure",
     "The tuning procedure of appendix A, step by step, up to where it ends",
-    SETTINGS,
+    _SETTINGS,
     procedure_run,
 )

@@ -67,14 +67,14 @@ SEPARATE = 3.0
 """Least ratio of velocity loop to position loop (7-54: 3277 / 65536 per ms to gain / 60 per ms), below which
 a closed position loop overshoots."""
 
-ASSUMED_MOTORS = {
+_ASSUMED_MOTORS = {
     frame: (MOTION.value(f"torque_{frame}"), MOTION.value(f"inertia_{frame}")) for frame in ("b410", "b420")
 }
 """Frame -> rated torque in N m and inertia in lb in s2."""
-DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
+_DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
 OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
 """N m and kg m² of the motor, when they are set."""
-LB_IN_S2 = 0.112984829
+_LB_IN_S2 = 0.112984829
 """kg m² of 1 lb in s2."""
 UNUSUAL_FRAMES = ("b7",)
 """Motors whose cells of Tables 7.B and 7.C fit no unit together."""
@@ -138,8 +138,8 @@ def highest_rate(lag: float = LAG, integral_time: float = math.inf) -> float:
 
 def frame_acceleration(frame: str) -> float:
     """Return rad/s2 of a motor alone at its rated torque."""
-    torque, inertia = ASSUMED_MOTORS[frame]
-    return torque / (inertia * LB_IN_S2)
+    torque, inertia = _ASSUMED_MOTORS[frame]
+    return torque / (inertia * _LB_IN_S2)
 
 
 def standard_gains(tables: Mapping[str, Table], motor: str, ratio: int) -> tuple[float, float] | None:
@@ -152,12 +152,12 @@ def standard_gains(tables: Mapping[str, Table], motor: str, ratio: int) -> tuple
     return float(columns[0][ratio]), float(columns[1][ratio])
 
 
-def typical_rate(tables: Mapping[str, Table]) -> float:
+def _typical_rate(tables: Mapping[str, Table]) -> float:
     """Return the velocity loop in 1/s that Table 7.B gives the motors whose data are assumed:
     the geometric mean.
     """
     rates = []
-    for frame in ASSUMED_MOTORS:
+    for frame in _ASSUMED_MOTORS:
         column = tables["7.B"].column(f"{frame.upper()}{'G' if frame == 'b410' else 'E'}")
         assert column is not None
         rates.append(loop_rate(float(column[0]), frame_acceleration(frame)))
@@ -177,7 +177,7 @@ def inertia_of(
     SimulationError where one is set and the other unknown.
     """
     name, loaded = f"1326AB-{motor.upper()}", f"Load Inertia Ratio 1 : {ratio} (7-71)"
-    frame = ASSUMED_MOTORS.get(motor[:4])
+    frame = _ASSUMED_MOTORS.get(motor[:4])
     if torque is not None or inertia is not None:
         return _of_set_motor(name, frame, ratio, torque, inertia)
     column = tables["7.B"].column(motor.upper()) if "7.B" in tables else None
@@ -185,15 +185,15 @@ def inertia_of(
         return Inertia(
             frame_acceleration(motor[:4]) / (1.0 + ratio),
             f"A {name} is taken to have {OWN_TORQUE} = {frame[0]:g} N m (rated) and {OWN_INERTIA} ="
-            f" {frame[1] * LB_IN_S2:.6f} kg m², from {DATA_SHEET}, with {loaded}.",
+            f" {frame[1] * _LB_IN_S2:.6f} kg m², from {_DATA_SHEET}, with {loaded}.",
         )
     if column is not None:
-        rate = typical_rate(tables)
+        rate = _typical_rate(tables)
         return Inertia(
             rate * FULL / float(column[0]) / (1.0 + ratio),
             f"The manual has no data of a {name}: its cell of Table 7.B (7-55) is taken to give a velocity"
             f" loop of {rate:.0f} 1/s, the mean of the 410 and 420 frames, whose torque and inertia are from"
-            f" {DATA_SHEET}, with {loaded}; set {OWN_TORQUE} and {OWN_INERTIA}.",
+            f" {_DATA_SHEET}, with {loaded}; set {OWN_TORQUE} and {OWN_INERTIA}.",
         )
     return Inertia(
         NOMINAL,
@@ -219,6 +219,6 @@ def _of_set_motor(
     if inertia is None:
         if frame is None:
             raise SimulationError(f"The inertia of a {name} is not known: set {OWN_INERTIA} too", OWN_INERTIA)
-        inertia = frame[1] * LB_IN_S2
+        inertia = frame[1] * _LB_IN_S2
         why.append(f"{OWN_INERTIA} of a {name} is taken as {inertia:.6f} kg m²")
-    return Inertia(torque / inertia / (1.0 + ratio), f"{why[0]}, from {DATA_SHEET}." if why else "")
+    return Inertia(torque / inertia / (1.0 + ratio), f"{why[0]}, from {_DATA_SHEET}." if why else "")

@@ -11,17 +11,17 @@ from .law_facts import ids
 
 ON = {"g22": ("2", "3"), "g22.1": ("3",), "g23": (), "g23.1": ("2",)}
 """G code at power-up (524) -> zones that are on (16-16)."""
-GROUPS = ("g1", "g2", "g3")
+_GROUPS = ("g1", "g2", "g3")
 NOTE = (
     "Zones count for the place of the axes alone: length and radius of the tool do not count (6-1). ASSUMED:"
     " the axes stop as at an overtravel; no stop is printed."
 )
-THIRD = "Zone 3 keeps the axes inside if they are in it when it is switched on, else outside (6-2)."
+_THIRD = "Zone 3 keeps the axes inside if they are in it when it is switched on, else outside (6-2)."
 
 
 _KINDS: Mapping[str, tuple[Literal["outside", "by start"], tuple[str, ...]]] = {
     "2": ("outside", (NOTE,)),
-    "3": ("by start", (NOTE, THIRD)),
+    "3": ("by start", (NOTE, _THIRD)),
 }
 """Programmable zone -> on which side of it axes may be, and notes."""
 
@@ -33,7 +33,7 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
     read = machine.parameters
     count = read.optional(ids.group_count, everywhere=True)
     on = ON.get(str(read.value(ids.powerup_zones, everywhere=True) or ""), ())
-    for n, group in enumerate(GROUPS, 1):
+    for n, group in enumerate(_GROUPS, 1):
         if count is not None and n > int(count):
             return  # 0 switches the zones off (6-6)
         members = [axis for axis in machine.fitted if machine.read(axis).value(ids.zone_group) == group]

@@ -42,7 +42,7 @@ from .law_words import Words, above, read_words
 if TYPE_CHECKING:
     from amp_studio.sim import Scenario
 
-ALWAYS = (
+_ALWAYS = (
     (
         "A unit is what P11 makes of the counts: lead and lines of the encoder, of which it is made (5-6),"
         " are in no parameter. Measure the first move with a rule."
@@ -63,12 +63,12 @@ ALWAYS = (
     "Directions (P10, P20) are taken to fit the wiring.",
 )
 
-CLAMPED = (
+_CLAMPED = (
     "The axis has a clamp (P8): its reference comes only when the PLC has reported the end of unclamping"
     " (CRM), and the program goes on only when it has reported clamping (4-23). How long that takes is not"
     " in the file and is left out of the times here."
 )
-NOT_SIMULATED = ("Not simulated: interaxis calibration, QVN and DISC loops (P70 to P87).",)
+_NOT_SIMULATED = ("Not simulated: interaxis calibration, QVN and DISC loops (P70 to P87).",)
 
 
 SCALE = "model.scale"
@@ -106,7 +106,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     return synchronised(law, read, _alone(leader)[0], length)
 
 
-FEEDBACK = (
+_FEEDBACK = (
     "Poor signal or channel loss of the encoder: the error of this axis is 210 and its address, {0}"
     " (page 5-18)"
 )
@@ -158,14 +158,14 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
             ("synchronisation_error", words.unit),
         ),
         alarms=alarms,
-        faults={"feedback": AlarmText("210 to 241", FEEDBACK.format(read.axis))},
+        faults={"feedback": AlarmText("210 to 241", _FEEDBACK.format(read.axis))},
         predict=lambda feedrate: predicted(words, feedrate),
         circle_feedrate=lambda radius: circle_feedrate(words, radius),
         limits=limits,
         stops_at=LARGEST,
         sources=_sources(read, words),
         follow=follow,
-        assumptions=(*notes, *_clamped(read), *ALWAYS, *NOT_SIMULATED),
+        assumptions=(*notes, *_clamped(read), *_ALWAYS, *_NOT_SIMULATED),
         assumed=MOTION.reasons(
             "acceleration_per_output", "velocity_bandwidth", "velocity_integral", "inertia_ratio"
         ),
@@ -182,7 +182,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
 def _clamped(read: AxisParameters) -> tuple[str, ...]:
     """Return what a clamp means for the times of an axis; nothing for one without."""
     word = int(read.optional(ids.axes_clamped, everywhere=True) or 0.0)
-    return (CLAMPED,) if word >> int(read.axis) & 1 else ()
+    return (_CLAMPED,) if word >> int(read.axis) & 1 else ()
 
 
 def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:

@@ -15,12 +15,12 @@ from .law_facts import ids
 
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
-APART = 0.03
+_APART = 0.03
 """Relative difference of gain and time constant from which they are not the same. A choice of this
 program."""
-HALF_MS = 0.00051
+_HALF_MS = 0.00051
 """s: P66 is in whole ms."""
-RESERVE = 0.8
+_RESERVE = 0.8
 """Share of the available acceleration that a ramp may use. A choice of this program."""
 
 
@@ -59,9 +59,9 @@ def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommenda
 def _fits(axis: AxisLaw) -> bool:
     """Return whether gain and time constant are the same thing, as far as whole ms can say it."""
     constant = axis.parameters[sample.CONSTANT]
-    near = abs(axis.position_rate * constant - 1.0) <= APART
+    near = abs(axis.position_rate * constant - 1.0) <= _APART
     # A short time constant cannot be closer than half a ms, which may be more than 3 %.
-    return near or abs(1.0 / axis.position_rate - constant) <= HALF_MS
+    return near or abs(1.0 / axis.position_rate - constant) <= _HALF_MS
 
 
 def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recommendation]:
@@ -92,7 +92,7 @@ def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     given.
     """
     limit = min(axis.machine.torque_limit_positive, axis.machine.torque_limit_negative)
-    available = RESERVE * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
+    available = _RESERVE * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
     now = next(iter(axis.ramps.values())).acceleration
     limited = (trace.result["peak_torque"][0] or 0.0) >= limit
     # An assumed machine shows an assumed torque: no ramp is lowered by it.

@@ -25,7 +25,7 @@ from amp_studio.sim import (
 
 from .law_facts import ids
 
-SETTINGS = {
+_SETTINGS = {
     "move.distance": (
         "distance of the move, with its sign (mm or deg); default: as far as it needs to reach its speed"
     ),
@@ -39,25 +39,25 @@ SETTINGS = {
     ),
     "move.crm": "none for a PLC that never reports",
 }
-LONGEST = 60.0
+_LONGEST = 60.0
 """s"""
-TAKES = 0.2
-SEQUENCE = (
+_TAKES = 0.2
+_SEQUENCE = (
     "Internal timeout, wait for CRM, unclamping (CRM = 0), CRM = 1, movement, deceleration, end of"
     " movement, wait for CRM, clamping, CRM = 1, program continued (4-23)."
 )
-TIMES = "ASSUMED: {0}: no page prints how long the timeout and a clamp take."
+_TIMES = "ASSUMED: {0}: no page prints how long the timeout and a clamp take."
 END = (
     "ASSUMED: the end of the movement, after which the axis is clamped, is where it comes into its"
     " in-position window (P22)."
 )
-WAITING = "WAIT FOR CRM"
+_WAITING = "WAIT FOR CRM"
 """Ours: no page prints what a NUM shows while it waits."""
 
 
-def run_clamp(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
+def _run_clamp(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Open the clamp of an axis, move it and close the clamp; raises SimulationError for one without."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     axis = machine.axis(_clamped(machine))
     before, opening, closing = _times(settings)
     if settings.get("move.crm") not in (None, "none"):
@@ -72,8 +72,8 @@ def run_clamp(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         text = (
             "The PLC reports no end of unclamping (CRM): the axis gets no reference and waits for ever (4-23)"
         )
-        alarms = (Alarm(WAITING, before, text),)
-    notes = (SEQUENCE, END, TIMES.format(f"{before:g} s, {opening:g} s to open and {closing:g} s to close"))
+        alarms = (Alarm(_WAITING, before, text),)
+    notes = (_SEQUENCE, END, _TIMES.format(f"{before:g} s, {opening:g} s to open and {closing:g} s to close"))
     return replace(
         trace,
         scenario="clamp",
@@ -99,10 +99,10 @@ def _clamped(machine: BoundMachine) -> str:
 
 def _times(settings: ScenarioSettings) -> tuple[float, float, float]:
     timeout = number(settings, "move.timeout") or 0.0
-    if not 0.0 <= timeout <= LONGEST:
-        raise SimulationError(f"move.timeout is {timeout:g}; simulated is 0 to {LONGEST:g}", "move.timeout")
+    if not 0.0 <= timeout <= _LONGEST:
+        raise SimulationError(f"move.timeout is {timeout:g}; simulated is 0 to {_LONGEST:g}", "move.timeout")
     opening, closing = (
-        above_zero(settings, name, LONGEST) or TAKES for name in ("move.unclamping", "move.clamping")
+        above_zero(settings, name, _LONGEST) or _TAKES for name in ("move.unclamping", "move.clamping")
     )
     return timeout, opening, closing
 
@@ -144,8 +144,8 @@ def _figures(
 SCENARIO = Scenario(
     "clamp",
     "An axis with a clamp: opened, moved, clamped again (M11, M10)",
-    SETTINGS,
-    run_clamp,
+    _SETTINGS,
+    _run_clamp,
     gains=False,
     of_machine=True,
     checked=("time_before", "motion_time", "time_after", "error_at_clamping"),

@@ -10,9 +10,9 @@ from .law_facts import MOTION, ids
 from .law_words import Words
 
 JOGS = {"normal": ids.jog_normal, "slow": ids.jog_slow, "fast": ids.jog_fast}
-REDUCED = {"mm": ids.reduced_speed_linear, "deg": ids.reduced_speed_rotary}
+_REDUCED = {"mm": ids.reduced_speed_linear, "deg": ids.reduced_speed_rotary}
 
-HOMED = (
+_HOMED = (
     (
         "The position at the first encoder zero after the switch is that of P16 (7-10). The figures of the"
         " six cases (7-5 to 7-7) are lost; all of them follow from P15 and P16."
@@ -29,7 +29,7 @@ JOGGED = (
     "JOG speeds of P31 for all axes (6-8), at 100 % of the potentiometer; reduced: while the PLC sets"
     " V_REDUIT (6-8)."
 )
-LIMITED = (
+_LIMITED = (
     "ASSUMED: a manual move stops at once at the limit; how the control stops there is not printed (7-12)."
 )
 
@@ -47,7 +47,7 @@ def homing(read: AxisParameters, length: float) -> Homing:
         raise SimulationError(f"Normal JOG speed (P31N1) is {speed:g}; it must be above 0", JOGS["normal"])
     sign, alone = (-1.0 if _bit(read, ids.homing_negative) else 1.0), _bit(read, ids.switch_not_tested)
     velocity = sign * speed / 60.0
-    notes = (WITHOUT.format(read.axis), *HOMED) if alone else HOMED
+    notes = (WITHOUT.format(read.axis), *_HOMED) if alone else _HOMED
     return Homing(
         approach=0.0 if alone else velocity,
         leave=velocity,
@@ -63,7 +63,7 @@ def homing(read: AxisParameters, length: float) -> Homing:
 
 def jogging(read: AxisParameters, unit: str) -> Jogging:
     """Return the speeds of P31 that are set."""
-    names = {**JOGS, "reduced": REDUCED[unit]}
+    names = {**JOGS, "reduced": _REDUCED[unit]}
     speeds = {
         name: (read.optional(parameter, everywhere=True) or 0.0) / 60.0 for name, parameter in names.items()
     }
@@ -76,18 +76,18 @@ def travel(read: AxisParameters, length: float) -> Travel:
         return Travel({}, "TRAVEL LIMIT", "7-12", ("A modulo axis has no travel limits (4-12).",))
     low, high = read.optional(ids.limit_min), read.optional(ids.limit_max)
     edges = (-math.inf if low is None else low * length, math.inf if high is None else high * length)
-    return Travel({"the travel limit of P17": edges}, "TRAVEL LIMIT", "7-12", (LIMITED,))
+    return Travel({"the travel limit of P17": edges}, "TRAVEL LIMIT", "7-12", (_LIMITED,))
 
 
-WHEELS = 4
-PER_LINE = 4.0
+_WHEELS = 4
+_PER_LINE = 4.0
 """Counts of a line: the axis card multiplies by 4 (5-12)."""
-WHEELED = (
+_WHEELED = (
     "A line of the wheel counts 4, and moves the axis by 4 times MULTI / DIVI internal units (5-12)."
     " ASSUMED: the axis goes no faster than P30 and has its ramp of positioning; neither is printed of a"
     " handwheel."
 )
-FILTERED = "The measurement of this wheel is filtered: the axis moves by whole lines (P14N1, 4-28)."
+_FILTERED = "The measurement of this wheel is filtered: the axis moves by whole lines (P14N1, 4-28)."
 
 
 def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
@@ -95,7 +95,7 @@ def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
     P14 does not declare.
     """
     declared = int(read.optional(ids.axes_handwheels, everywhere=True) or 0.0)
-    known = [str(n + 1) for n in range(WHEELS) if declared >> n & 1]
+    known = [str(n + 1) for n in range(_WHEELS) if declared >> n & 1]
     if not known:
         raise SimulationError("P14N0 declares no handwheel (4-28)")
     chosen = wheel or known[0]
@@ -103,12 +103,12 @@ def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
         raise SimulationError(
             f"P14N0 declares no handwheel {chosen}, but {', '.join(known)} (4-28)", "move.wheel"
         )
-    step = PER_LINE * _wheel_ratio(read, chosen, turns=words.unit == "deg") * words.length
+    step = _PER_LINE * _wheel_ratio(read, chosen, turns=words.unit == "deg") * words.length
     is_reversed, is_filtered = (
         int(read.optional(name, everywhere=True) or 0.0) >> int(chosen) - 1 & 1
         for name in (ids.handwheel_direction, ids.handwheel_filter)
     )
-    notes = (WHEELED, *((FILTERED,) if is_filtered else ()))
+    notes = (_WHEELED, *((_FILTERED,) if is_filtered else ()))
     return Handwheel(-step if is_reversed else step, words.top, page="5-12", notes=notes)
 
 

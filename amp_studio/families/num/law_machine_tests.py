@@ -12,11 +12,11 @@ from .formulas.servo import loop_gain_coefficient, max_following_error
 from .law_facts import ids
 from .law_words import read_words
 
-CHECKS = 10
-RADIUS, CIRCLE_FEED = 20.0, 3000.0
+_CHECKS = 10
+_RADIUS, _CIRCLE_FEED = 20.0, 3000.0
 """mm and mm/min (6-46)."""
-SLOW = 0.1
-PRINTED_WAY = 100.0
+_SLOW = 0.1
+_PRINTED_WAY = 100.0
 """mm or deg to each side (11-3)."""
 ROOM = 0.8
 """Share of the travel that a program uses."""
@@ -142,7 +142,7 @@ def _homing(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
         f"N1 G77 N5 N60 (HOME {letter})",
         f"N2 G9 G52 {letter}{_word(check)} F1000",
         "N3 M0 $CHECK THE POSITION",
-        f"N4 L10=L10+1 G79 L10<{CHECKS} N1",
+        f"N4 L10=L10+1 G79 L10<{_CHECKS} N1",
         "M02",
         f"N5 L0={axis.axis} L1=90000+L0 L2=91000+L0 L3=92000+L0 L4=93000+L0 L6=91100+L0",
         *(_modulo_lines if is_modulo else _linear_lines)(letter, back),
@@ -155,7 +155,7 @@ def _homing(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
         ),
         MachineTestStep(
             "Run %9990 and read the comparator at each M0",
-            f"{CHECKS} readings that differ by no more than a measuring unit",
+            f"{_CHECKS} readings that differ by no more than a measuring unit",
         ),
         MachineTestStep(
             "Compare with P16",
@@ -214,13 +214,13 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> list[MachineTe
     low, high = _room(axis)
     rate = next(iter(axis.ramps.values())).acceleration
     feed = (axis.feedrate or 0.0) * 60.0
-    half = min(PRINTED_WAY, 0.5 * ROOM * (high - low))
+    half = min(_PRINTED_WAY, 0.5 * ROOM * (high - low))
     # The printed program goes to both sides of 0; where the travel has no room there, of its middle.
     middle = 0.0 if ROOM * high >= half and ROOM * low <= -half else 0.5 * (low + high)
     ends = (middle + half, middle - half)
     way = abs(ends[0] - ends[1])
     speeds = []
-    for name, share in (("slow", SLOW), ("fast", 1.0)):
+    for name, share in (("slow", _SLOW), ("fast", 1.0)):
         speed = feed * share
         # Half of it to speed up and half to stop: v² / 2a each.
         if rate and way < (speed / 60.0) ** 2 / rate:
@@ -279,11 +279,11 @@ def _circle(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
             "circle", title, "6-46", refusal=f"{first} and {second} are in none of the planes G17 to G19."
         )
     low, high = _room(axis)
-    if high - low < 2.0 * RADIUS:
+    if high - low < 2.0 * _RADIUS:
         return MachineTest(
-            "circle", title, "6-46", refusal=f"Axis {letter} has no room for a radius of {RADIUS:g} mm."
+            "circle", title, "6-46", refusal=f"Axis {letter} has no room for a radius of {_RADIUS:g} mm."
         )
-    lines = ("%1020", "M997 G77 H9997.9", "G80", f"(MDI) G120 {plane} G3 R{RADIUS:g} F{CIRCLE_FEED:g}")
+    lines = ("%1020", "M997 G77 H9997.9", "G80", f"(MDI) G120 {plane} G3 R{_RADIUS:g} F{_CIRCLE_FEED:g}")
     steps = (
         MachineTestStep(
             "Preset P19 and P55, select %9997.9 on the graphic page, and run G120 in MDI",

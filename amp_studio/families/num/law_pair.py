@@ -12,7 +12,7 @@ from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, Predictio
 from . import law_sample as sample
 from .law_facts import ids
 
-BASIC_CORRECTION = 250.0
+_BASIC_CORRECTION = 250.0
 """Thousandths of the error that are given back, the basic value (6-30)."""
 
 
@@ -40,7 +40,7 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
         )
     correction, threshold = read.optional(ids.sync_correction), read.optional(ids.sync_error)
     p = list(law.parameters)
-    p[sample.CORRECTION] = (BASIC_CORRECTION if correction is None else correction) / 1000.0
+    p[sample.CORRECTION] = (_BASIC_CORRECTION if correction is None else correction) / 1000.0
     p[sample.SYNC_LIMIT] = math.inf if threshold is None else threshold * length
     text = AlarmText(
         "39", f"The synchronisation error is above threshold 1 (P24N{read.axis}); CN_PRET falls (6-30)."

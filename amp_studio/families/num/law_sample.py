@@ -43,8 +43,8 @@ PARAMETERS = 16
 
 # State
 REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL, ADDED, STEP = range(8)
-RING = 8
-STATES = RING + MAX_TERMS
+_RING = 8
+STATES = _RING + MAX_TERMS
 
 # Monitors
 POINTS, THEORETICAL_SPEED, REAL_SPEED, SYNC_ERROR = range(4)
@@ -74,9 +74,9 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     terms = int(p[TERMS])
     total = io[COMMAND]
     for place in range(terms - 1, 0, -1):
-        s[RING + place] = s[RING + place - 1]
-        total += s[RING + place]
-    s[RING] = io[COMMAND]
+        s[_RING + place] = s[_RING + place - 1]
+        total += s[_RING + place]
+    s[_RING] = io[COMMAND]
     reference = total / terms
     # The speed reference and the direction of friction are taken behind the filter, as the loop sees
     # them.

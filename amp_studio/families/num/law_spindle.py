@@ -18,18 +18,20 @@ from amp_studio.sim import (
 from .formulas.spindle import indexing_standstill, spindle_increment, tapping_deceleration_distance
 from .law_facts import ids
 
-RANGES = range(40, 46)
-FULL_V = 10.0
+_RANGES = range(40, 46)
+_FULL_V = 10.0
 SEARCH = 1 << 7
 """Bit of P7N0 that switches the automatic search of a range off (8-16)."""
-FEED_STOP_WAITS = 1 << 4
+_FEED_STOP_WAITS = 1 << 4
 """Bit of P7N1 (8-9)."""
-GROUP_1 = "1"
-PROPORTION = (
+_GROUP_1 = "1"
+_PROPORTION = (
     "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the"
     " reference is printed."
 )
-FOLLOWS = "The axis follows the angle of the spindle; word 1 of P63 of group 1 puts its command ahead (8-35)."
+_FOLLOWS = (
+    "The axis follows the angle of the spindle; word 1 of P63 of group 1 puts its command ahead (8-35)."
+)
 INTEGRAL = (
     "ASSUMED: the integration of P63 word 0 and the start of the axis by word 2 are not simulated: both make"
     " the error smaller after it has begun."
@@ -41,7 +43,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     if number not in ("1", "2", "3", "4"):
         raise SimulationError(f"There is no spindle {number}: 1 to 4", "move.spindle")
     gears = []
-    for word in RANGES:
+    for word in _RANGES:
         at = f"{number}.{word}"
         high = read.optional(ids.range_max, at=at) or 0.0
         if high <= 0.0:
@@ -54,7 +56,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
                 low,
                 limit,
                 full=high,
-                output=FULL_V,
+                output=_FULL_V,
                 gain=(read.optional(ids.spindle_gain, at=number) or 0.0) / 60.0,
                 tap_rate=read.optional(ids.tapping_acceleration, at=number) or 0.0,
             )
@@ -69,9 +71,9 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
         tuple(gears),
         "8-16",
         (
-            (PROPORTION,)
+            (_PROPORTION,)
             if not functions & SEARCH
-            else (PROPORTION, "Bit 7 of P7N0 is set: no range is searched (8-16).")
+            else (_PROPORTION, "Bit 7 of P7N0 is set: no range is searched (8-16).")
         ),
         orient=_orient(read, number),
         no_gear="ERROR 29",
@@ -107,13 +109,13 @@ def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, 
     if not gear.tap_rate:
         raise SimulationError(f"P62 gives spindle {spindle.name} no acceleration", ids.tapping_acceleration)
     period = (read.optional(ids.sampling_period, everywhere=True) or 0.0) / 1000.0  # ms to s
-    ahead = (read.optional(ids.position_anticipation, at=GROUP_1) or 0.0) / 1000.0 * period
-    start = (read.optional(ids.zero_crossing_anticipation, at=GROUP_1) or 0.0) * period
+    ahead = (read.optional(ids.position_anticipation, at=_GROUP_1) or 0.0) / 1000.0 * period
+    start = (read.optional(ids.zero_crossing_anticipation, at=_GROUP_1) or 0.0) * period
     volts = read.optional(ids.hole_bottom_reference, at=spindle.name) or 0.0
     distance = tapping_deceleration_distance(pitch, gear.high, gear.tap_rate)
     figures = {
         "deceleration_distance_at_limit": (distance, axis.unit),
-        "hole_bottom_speed": (volts / FULL_V * gear.full, "rpm"),
+        "hole_bottom_speed": (volts / _FULL_V * gear.full, "rpm"),
         "anticipation": (ahead, "s"),
         "zero_crossing_anticipation": (start, "s"),
     }
@@ -129,10 +131,10 @@ def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, 
         feed_stop="inhibited" if _inhibits_feed_stop(read) else "detaps",
         feed_stop_page="8-9",
         page="8-32 to 8-35",
-        notes=(FOLLOWS, INTEGRAL),
+        notes=(_FOLLOWS, INTEGRAL),
     )
 
 
 def _inhibits_feed_stop(read: AxisParameters) -> bool:
     """Return whether CYHLD waits for the end of a tap (8-9); without the bit it turns the tap back."""
-    return bool(int(read.optional(ids.functions_more, everywhere=True) or 0.0) & FEED_STOP_WAITS)
+    return bool(int(read.optional(ids.functions_more, everywhere=True) or 0.0) & _FEED_STOP_WAITS)

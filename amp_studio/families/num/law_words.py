@@ -22,7 +22,7 @@ from .formulas import (
 from .law_facts import MOTION, ids
 
 VOLTAGE, FILTER = "model.drive_voltage", "model.filter"
-UC_SII = "1060 UCSII"
+_UC_SII = "1060 UCSII"
 """The application with that processor."""
 
 _OF_CONTROL = (ids.axes_measured, ids.axes_servoed, ids.sampling_period)
@@ -174,7 +174,7 @@ def _period(read: AxisParameters, notes: list[str]) -> float:
     """Return the active sampling period in s (9-10)."""
     # In whole µs: a period in ms is not exact as a float, and would be rounded down to the step below.
     given = round(read.number(ids.sampling_period, everywhere=True) * 1000.0, 6)
-    taken = sampling_period_in_force(given, read.application == UC_SII)
+    taken = sampling_period_in_force(given, read.application == _UC_SII)
     if taken != given:
         notes.append(f"P50N0 is {given:g} us: the control takes {taken:g} us (9-10).")
     elif not read.application and taken % 2000.0:

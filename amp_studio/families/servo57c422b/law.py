@@ -42,7 +42,7 @@ from .switch_bits import DRIVE_FAULT
 if TYPE_CHECKING:
     from amp_studio.sim import Scenario
 
-NEEDED = (
+_NEEDED = (
     ids.gain_proportional,
     ids.gain_integral,
     ids.gain_velocity,
@@ -54,7 +54,7 @@ NEEDED = (
     ids.command_deceleration,
 )
 
-COMMAND_DATA = (
+_COMMAND_DATA = (
     ids.command_position,
     ids.setup_overtravel_positive,
     ids.setup_overtravel_negative,
@@ -66,7 +66,7 @@ COMMAND_DATA = (
 )
 """What tune commands, gearing, cams and backlash compensation read besides."""
 
-PER_VOLT = "model.velocity_per_output"
+_PER_VOLT = "model.velocity_per_output"
 _SCALES = (
     "model.proportional_scale",
     "model.integral_scale",
@@ -131,7 +131,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     _refuse_no_gain(read)
     # The bit of Drive Setup is lost; by 5-3 a velocity gain of 0 belongs to a drive that takes a velocity.
     current = read.number(ids.gain_velocity) != 0.0
-    per_volt = None if read.value(PER_VOLT) is None else read.within(PER_VOLT, 1.0, 1e9)
+    per_volt = None if read.value(_PER_VOLT) is None else read.within(_PER_VOLT, 1.0, 1e9)
     machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)
     p, notes = _parameters(read, machine, current)
     assumed = plant.reasons(current_reference=current)
@@ -171,7 +171,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         travel=partial(travel, read, _ramps(read)["linear"]),
         jogging=partial(jogging, read, _ramps(read)["linear"]),
         read=read,
-        names={parameter: read.called(parameter) for parameter in COMMAND_DATA},
+        names={parameter: read.called(parameter) for parameter in _COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
         settled=_settled,
     )
@@ -179,7 +179,7 @@ def bind(read: AxisParameters) -> AxisLaw:
 
 def _refuse_missing(read: AxisParameters) -> None:
     """Raise SimulationError where a register that the loop needs is not set."""
-    missing = [parameter for parameter in NEEDED if read.value(parameter) is None]
+    missing = [parameter for parameter in _NEEDED if read.value(parameter) is None]
     if missing:
         names = ", ".join(read.called(parameter) for parameter in missing)
         raise SimulationError(
@@ -355,7 +355,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     share = 1.0 + (words - p[loop.DEADBAND]) / p[loop.VELOCITY] / commanded
     # Rounded down: the error must not become negative (5-4).
     gain = float(math.floor(share * axis.scales.feed_forward))
-    if not 0.0 <= gain <= _WORD[1] or abs(gain / axis.scales.feed_forward - p[loop.FEED_FORWARD]) < SAME:
+    if not 0.0 <= gain <= _WORD[1] or abs(gain / axis.scales.feed_forward - p[loop.FEED_FORWARD]) < _SAME:
         return ()
     why = (
         "As small an error at the commanded speed as possible without going negative, with this Velocity Gain"
@@ -364,7 +364,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     return (Recommendation(ids.gain_feedforward, gain, "", why, "Overshoot in moves (page 4-30)."),)
 
 
-SAME = 5e-4
+_SAME = 5e-4
 """Difference of two feed-forward shares that is not worth a change: 4 of 8192."""
 
 

@@ -15,13 +15,13 @@ from .formulas.cam import WORDS, cam_jump, cam_points, cam_step_time, word_bytes
 from .law_facts import ids
 from .law_sample import SCAN
 
-POSITIONS, BYTES = 956, 3830
+_POSITIONS, _BYTES = 956, 3830
 """Positions and bytes that a table has room for (page 4-57)."""
 LARGEST = 32767
 """Counts in one step of a table of words (page 4-50)."""
-MAX_INCREMENT = 32767
+_MAX_INCREMENT = 32767
 """Counts of register 125 (page 4-53)."""
-WORDS_BIT, CONTINUOUS_BIT, POSITION_BIT = 0, 3, 8
+_WORDS_BIT, _CONTINUOUS_BIT, _POSITION_BIT = 0, 3, 8
 """Of register 130 (4-54)."""
 
 
@@ -37,13 +37,13 @@ def present(file: ParameterFile, axis: str) -> CamProfile:
     count, mode = _number(file, ids.cam_points, axis), _mode(file, axis)
     if not count:
         raise SimulationError(f"Axis {axis} has no cam: its number of points is 0", ids.cam_points)
-    room = POSITIONS if mode >> POSITION_BIT & 1 else WORDS if mode >> WORDS_BIT & 1 else BYTES
+    room = _POSITIONS if mode >> _POSITION_BIT & 1 else WORDS if mode >> _WORDS_BIT & 1 else _BYTES
     if not 0 < count <= room:
         raise SimulationError(
             f"Axis {axis} has {count:.0f} points of a cam: its table has room for 1 to {room} (page 4-57)",
             ids.cam_points,
         )
-    if mode >> POSITION_BIT & 1:
+    if mode >> _POSITION_BIT & 1:
         table = [_number(file, ids.position_points, f"{axis}.{k}") for k in range(int(count))]
         increment = _number(file, ids.position_increment, axis)
         if None in table or not increment:
@@ -58,7 +58,7 @@ def present(file: ParameterFile, axis: str) -> CamProfile:
 def _steps(file: ParameterFile, axis: str, count: int, mode: int) -> list[int]:
     """Return the travel of each step of a time cam, of words or of bytes."""
     found: list[float | None]
-    if mode >> WORDS_BIT & 1:
+    if mode >> _WORDS_BIT & 1:
         found = [_number(file, ids.time_points, f"{axis}.{k}") for k in range(count)]
     else:
         words = [_number(file, ids.byte_points, f"{axis}.{k}") for k in range((count + 1) // 2)]
@@ -92,7 +92,7 @@ def _time_cam(file: ParameterFile, axis: str, points: CamPoints, scans: int) -> 
             ids.time_points,
         )
     # Only these two bits: direction, mirror and the others of register 130 stay as they are.
-    mode = (_mode(file, axis) | 1 << WORDS_BIT) & ~(1 << POSITION_BIT)
+    mode = (_mode(file, axis) | 1 << _WORDS_BIT) & ~(1 << _POSITION_BIT)
     settings: dict[Address, Value | None] = {
         (ids.cam_points, axis): Value(count),
         (ids.cam_time, axis): Value(scans * SCAN * 1000.0, "ms"),
@@ -108,12 +108,12 @@ def _time_cam(file: ParameterFile, axis: str, points: CamPoints, scans: int) -> 
 def _position_cam(file: ParameterFile, axis: str, points: CamPoints) -> CamProfile:
     """Return a position cam: points one increment of the master apart, as many as there is room for."""
     span = round(float(points.x[-1]))
-    least = max(math.ceil(span / (POSITIONS - 1)), 1)
+    least = max(math.ceil(span / (_POSITIONS - 1)), 1)
     # The least that fits whole into the cycle: the most points that the table has room for.
-    increment = next((n for n in range(least, MAX_INCREMENT + 1) if span % n == 0), None)
+    increment = next((n for n in range(least, _MAX_INCREMENT + 1) if span % n == 0), None)
     if increment is None or increment > span:
         raise SimulationError(
-            f"No increment of {least} to {MAX_INCREMENT} counts divides {span} counts of the master"
+            f"No increment of {least} to {_MAX_INCREMENT} counts divides {span} counts of the master"
             " (page 4-53)",
             ids.position_increment,
         )
@@ -122,7 +122,7 @@ def _position_cam(file: ParameterFile, axis: str, points: CamPoints) -> CamProfi
     settings: dict[Address, Value | None] = {
         (ids.cam_points, axis): Value(len(at)),
         (ids.position_increment, axis): Value(int(increment), "counts"),
-        (ids.cam_mode, axis): Value(_mode(file, axis) | 1 << POSITION_BIT),
+        (ids.cam_mode, axis): Value(_mode(file, axis) | 1 << _POSITION_BIT),
         **_table(file, axis, ids.position_points, [int(each) for each in table]),
     }
     figures = {"points": (float(len(at)), ""), "increment": (float(increment), "counts")}
@@ -175,7 +175,7 @@ def _doubts(
         doubts.append(
             f"The cam asks for {inside:g} counts/s2; registers 21 to 24 allow {most:g} for other moves (4-14)"
         )
-    if _mode(file, axis) >> CONTINUOUS_BIT & 1:
+    if _mode(file, axis) >> _CONTINUOUS_BIT & 1:
         given = settings.get((ids.loop_back, axis))
         back = int(given.value) if given else int(_number(file, ids.loop_back, axis) or 0.0)
         jump = abs(cam_jump(steps[-1], steps[min(back, len(steps) - 1)], step * 1000.0))

@@ -42,7 +42,7 @@ from .law_facts import ids
 from .law_gear import followed, gear_fraction, pieces_of
 from .law_sample import SCAN
 
-TUNE = {"tune.command": "tune command: gains, dynamics or feedforward; default: gains"}
+_TUNE = {"tune.command": "tune command: gains, dynamics or feedforward; default: gains"}
 GEAR = {
     "gear.speed": "speed of the gearing reference (counts/s); default: Command Velocity over the ratio",
     "gear.time": "time that the axis is geared (s); default: 1",
@@ -79,9 +79,9 @@ _LONGEST = 60.0
 """Most seconds of a cam or a geared run."""
 
 
-def run_procedure(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_procedure(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one of the three tune commands (pages 4-29 to 4-31) and a move with what it leaves."""
-    refuse_unknown(settings, TUNE)
+    refuse_unknown(settings, _TUNE)
     module = _module(axis)
     which = str(settings.get("tune.command", "gains"))
     if which not in _TUNES:
@@ -151,7 +151,7 @@ _TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.CommandResult, ScenarioSe
 }
 
 
-def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Gear the axis to a reference that is already moving (pages 4-15, 4-20, 4-24)."""
     refuse_unknown(settings, GEAR)
     module = _module(axis)
@@ -197,7 +197,7 @@ def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     )
 
 
-def run_cam(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_cam(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run the cam profile of registers 125 to 2046 (pages 4-49 to 4-56)."""
     refuse_unknown(settings, CAM)
     module = _module(axis)
@@ -271,7 +271,7 @@ def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
     return [int(value) for value in values if value is not None]
 
 
-def run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Make a move with automatic backlash compensation:
     against its sign it overruns and comes back (page 4-21).
     """
@@ -408,14 +408,14 @@ COMMANDS = {
         Scenario(
             "procedure",
             "The three tune commands of the module, and a move with what they leave",
-            TUNE,
-            run_procedure,
+            _TUNE,
+            _run_procedure,
         ),
         Scenario(
             "gear",
             "The axis at rest is geared to a moving reference",
             GEAR,
-            run_gear,
+            _run_gear,
             part="coupling",
             checked=("gear_ratio", "speed", "peak_following_error"),
             programmed={"gear.time": 1.0},
@@ -424,7 +424,7 @@ COMMANDS = {
             "cam",
             "A time cam or a position cam",
             CAM,
-            run_cam,
+            _run_cam,
             part="coupling",
             checked=("points", "peak_following_error", "peak_velocity_error", "peak_output"),
         ),
@@ -432,7 +432,7 @@ COMMANDS = {
             "backlash",
             "A move with backlash compensation",
             BACKLASH,
-            run_backlash,
+            _run_backlash,
             part="coupling",
             checked=("move_1", "move_2", "peak_following_error"),
         ),

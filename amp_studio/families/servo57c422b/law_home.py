@@ -11,7 +11,7 @@ from . import switch_bits as bits
 from .law_facts import MOTION, ids
 
 MARKER = "ASSUMED: an encoder of 1000 lines (page 4-48), if a marker is used; move.turn gives another."
-UNKNOWN = (
+_UNKNOWN = (
     "Register 2 is not set. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the"
     " direction of move.direction; and an encoder of 1000 lines (page 4-48)."
 )
@@ -41,7 +41,7 @@ def homing(read: AxisParameters) -> Homing:
         speeds={"approach": ids.command_velocity, "leave": ids.home_speed_low},
         page="4-29",
         notes=(
-            UNKNOWN if word is None else bits.SWITCHES,
+            _UNKNOWN if word is None else bits.SWITCHES,
             *([MARKER] if word is not None and marker else []),
             PLACE,
         ),

@@ -15,13 +15,13 @@ from .law_axis import ModuleAxis
 from .law_facts import ids
 from .law_gear import LARGEST, SMALLEST
 
-MOVE_WORDS = (
+_MOVE_WORDS = (
     ("17", ids.command_position),
     ("19", ids.command_velocity),
     ("21", ids.command_acceleration),
     ("23", ids.command_deceleration),
 )
-VARIABLES = {
+_VARIABLES = {
     15: "HOME_SPD!",
     17: "CMD_POS!",
     19: "CMD_VEL!",
@@ -45,7 +45,7 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
 
 def _variable(axis: str, register: int) -> str:
     """Return the variable of a register of an axis."""
-    name = VARIABLES[register]
+    name = _VARIABLES[register]
     return f"REG_{register + _base(axis)}{name[-1]}" if _base(axis) else name
 
 
@@ -132,7 +132,7 @@ def _move(machine: BoundMachine, axis: ModuleAxis) -> MachineTest:
     """Return the test of one move out and back, or why there is none."""
     title = "One move out and back at the speeds of the file"
     read, base = machine.read(axis.axis), _base(axis.axis)
-    figures = {number: read.optional(name) for number, name in MOVE_WORDS}
+    figures = {number: read.optional(name) for number, name in _MOVE_WORDS}
     if missing := [number for number, figure in figures.items() if figure is None]:
         return MachineTest("move", title, "5-7", refusal=f"Registers {', '.join(missing)} are not set.")
     target = figures["17"] or 0.0

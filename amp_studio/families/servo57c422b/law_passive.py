@@ -26,24 +26,24 @@ from . import switch_bits as bits
 from .law_axis import ModuleAxis
 from .law_facts import MOTION, ids
 
-SETTINGS = {
+_SETTINGS = {
     "move.distance": "distance of the motion (counts), with its sign; default: one turn and a half",
     "move.marker": "distance from the start to the first marker (counts); default: a quarter turn",
     "move.turn": "from one marker to the next (counts); default: that of an encoder of 1000 lines",
 }
-TURNS, QUARTER = 1.5, 0.25
-NO_MARKER = "NO MARKER"
+_TURNS, _QUARTER = 1.5, 0.25
+_NO_MARKER = "NO MARKER"
 """Ours: the module waits on, and no fault is printed for it."""
-WAITS = (
+_WAITS = (
     "The command causes no motion (4-33): the axis is moved by a move here. ASSUMED: the move goes on to the"
     " place where it was going to, and its feedback position is counted from the marker on."
 )
 LINES = "ASSUMED: an encoder of 1000 lines (page 4-48); move.turn gives another."
 
 
-def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Move over the first marker; raises SimulationError where register 2 uses no feedback marker."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     assert isinstance(axis, ModuleAxis)
     setup = axis.register(ids.setup_switches)
     if setup is not None and not int(setup) & bits.MARKER:
@@ -53,10 +53,10 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         )
     turn = above_zero(settings, "move.turn") or MOTION.value("marker_distance")
     distance = number(settings, "move.distance")
-    distance = TURNS * turn if distance is None else distance
+    distance = _TURNS * turn if distance is None else distance
     first = number(settings, "move.marker")
     sign = math.copysign(1.0, distance)
-    first = sign * QUARTER * turn if first is None else first
+    first = sign * _QUARTER * turn if first is None else first
     # Markers are a turn apart on both sides: the next one in the direction of the motion.
     marker = first + turn * (math.ceil(-first / turn) if sign > 0.0 else math.floor(-first / turn))
     coordinate = axis.needed(ids.command_position, "it is the position of the marker (page 4-33)")
@@ -68,7 +68,7 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     alarms = trace.alarms
     if not met and not alarms:
         alarms = (
-            Alarm(NO_MARKER, float(trace.columns["time_s"][-1]), "The motion ends before the next marker"),
+            Alarm(_NO_MARKER, float(trace.columns["time_s"][-1]), "The motion ends before the next marker"),
         )
     result: dict[str, Figure] = {
         "home_position": (coordinate if met else None, "counts"),
@@ -77,7 +77,7 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         "time": (float(trace.columns["time_s"][rows[0]]) if met else None, "s"),
         "peak_following_error": trace.result["peak_following_error"],
     }
-    notes = (WAITS, *(() if settings.get("move.turn") else (LINES,)), bits.SWITCHES, *trace.assumptions)
+    notes = (_WAITS, *(() if settings.get("move.turn") else (LINES,)), bits.SWITCHES, *trace.assumptions)
     return Trace(
         scenario="passive-home",
         axis=axis.axis,
@@ -94,8 +94,8 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
 SCENARIO = Scenario(
     "passive-home",
     "Passive homing: the first marker in any motion gives the position",
-    SETTINGS,
-    run_passive_home,
+    _SETTINGS,
+    _run_passive_home,
     gains=False,
     part="homing",
     checked=("home_position", "time"),

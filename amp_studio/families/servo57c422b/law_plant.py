@@ -27,10 +27,10 @@ COULOMB = MOTION.value("coulomb_friction") / WORDS_PER_VOLT
 """V"""
 DELAY = MOTION.value("delay")
 """s from the measured position to the reference at the drive."""
-FULL_SPEED = MOTION.value("velocity_per_output")
+_FULL_SPEED = MOTION.value("velocity_per_output")
 """Counts/s of a velocity drive at 10 V."""
 FULL_VOLTS = 10.0
-PERCENT_PER_VOLT = MOTION.value("percent_per_volt")
+_PERCENT_PER_VOLT = MOTION.value("percent_per_volt")
 
 
 def reasons(*, current_reference: bool) -> dict[str, str]:
@@ -56,12 +56,12 @@ def machine(*, current_reference: bool, velocity_per_volt: float | None) -> Mach
         )
     return Machine(
         # The output of a velocity drive is a speed: its torque is in % there, not in volts.
-        acceleration_per_output=ACCELERATION / PERCENT_PER_VOLT,
-        viscous_friction=VISCOUS * PERCENT_PER_VOLT,
-        coulomb_friction=COULOMB * PERCENT_PER_VOLT,
+        acceleration_per_output=ACCELERATION / _PERCENT_PER_VOLT,
+        viscous_friction=VISCOUS * _PERCENT_PER_VOLT,
+        coulomb_friction=COULOMB * _PERCENT_PER_VOLT,
         delay=DELAY,
         output_limit=FULL_VOLTS,
-        velocity_per_output=FULL_SPEED / FULL_VOLTS if velocity_per_volt is None else velocity_per_volt,
+        velocity_per_output=_FULL_SPEED / FULL_VOLTS if velocity_per_volt is None else velocity_per_volt,
         velocity_bandwidth=MOTION.value("velocity_bandwidth"),
         motor_count=1.0,
         position_count=1.0,

@@ -60,7 +60,7 @@ BEFORE, SUM, WANTED, CUT = 0, 1, 2, 3
 words that the clamp took off the last output."""
 STATE = 4
 
-POSITION_FAULT, VELOCITY_FAULT = 1.0, 2.0
+_POSITION_FAULT, _VELOCITY_FAULT = 1.0, 2.0
 """STOP: register 73, bits 4 and 5."""
 
 MONITORS = (("wanted_velocity", "counts/scan"), ("velocity_error", "counts/scan"), ("output_word", ""))
@@ -76,7 +76,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
             s[SUM] += error
         s[WANTED] = p[FEED_FORWARD] * commanded + p[PROPORTIONAL] * error + p[INTEGRAL] * s[SUM]
         if p[POSITION_ERROR] >= 0.0 and abs(error) > p[POSITION_ERROR]:
-            io[STOP] = POSITION_FAULT
+            io[STOP] = _POSITION_FAULT
 
 
 def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
@@ -100,7 +100,7 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     io[OUTPUT] = cut / WORDS_PER_VOLT
     io[MONITOR], io[MONITOR + 1], io[MONITOR + 2] = s[WANTED], commanded - velocity, cut
     if io[MODE] == POSITION_LOOP and 0.0 <= p[VELOCITY_ERROR] < abs(commanded - velocity):
-        io[STOP] = VELOCITY_FAULT
+        io[STOP] = _VELOCITY_FAULT
 
 
 def whole_sample(p: Vector, s: Vector, io: Vector) -> None:

@@ -36,14 +36,14 @@ from .law_facts import ids
 
 LARGEST = 32767
 """Of a register of 16 bits."""
-LEFT = 1.0 / 3.0
+_LEFT = 1.0 / 3.0
 """Share of the gain at which the shaft vibrates that a tune leaves."""
-HALVES = 6
-QUIET = 40.0
+_HALVES = 6
+_QUIET = 40.0
 """Counts that a shaft at rest may go to and fro in 0.1 s: two counts wide at 100 Hz."""
 WAY = 0.1
 """s of each of the four ramps of the move there and back."""
-REST = 0.2
+_REST = 0.2
 """s of rest after it, of which the last half is checked."""
 
 
@@ -73,23 +73,23 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> CommandResult:
     """
     faults = {place: axis.parameters[place] for place in (loop.POSITION_ERROR, loop.VELOCITY_ERROR)}
     # Without faults: at the gain that is sought the shaft vibrates, which is not to end the search.
-    axis = with_figures(axis, {loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0, loop.INTEGRAL: 0.0})
+    axis = _with_figures(axis, {loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0, loop.INTEGRAL: 0.0})
     found = {ids.gain_deadband: deadband(axis)}
-    axis = with_figures(axis, {loop.DEADBAND: found[ids.gain_deadband]})
+    axis = _with_figures(axis, {loop.DEADBAND: found[ids.gain_deadband]})
     if axis.parameters[loop.CURRENT_REFERENCE] > 0.0:
 
         def velocity(gain: float) -> bool:
-            trial = with_figures(axis, {loop.VELOCITY: gain / scales.velocity})
+            trial = _with_figures(axis, {loop.VELOCITY: gain / scales.velocity})
             # The velocity loop alone: position gains have no part in it yet.
             return vibrates(trial, increment, VELOCITY_LOOP)
 
         found[ids.gain_velocity] = _third_of_gain("Velocity Gain", velocity)
-        axis = with_figures(axis, {loop.VELOCITY: found[ids.gain_velocity] / scales.velocity})
+        axis = _with_figures(axis, {loop.VELOCITY: found[ids.gain_velocity] / scales.velocity})
 
     def proportional(gain: float) -> bool:
         # Without feed-forward, which moves the axis but has no part in its stability.
         trial = {loop.PROPORTIONAL: gain / scales.proportional, loop.FEED_FORWARD: 0.0}
-        return vibrates(with_figures(axis, trial), increment, POSITION_LOOP)
+        return vibrates(_with_figures(axis, trial), increment, POSITION_LOOP)
 
     gain = _third_of_gain("Proportional Gain", proportional)
     share = gain / scales.proportional
@@ -98,7 +98,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> CommandResult:
     )  # the aperiodic limit of both
     found[ids.gain_proportional] = gain
     integral = found[ids.gain_integral] / scales.integral
-    tuned = with_figures(axis, {loop.PROPORTIONAL: share, loop.INTEGRAL: integral, **faults})
+    tuned = _with_figures(axis, {loop.PROPORTIONAL: share, loop.INTEGRAL: integral, **faults})
     # The search looks at the shaft for 0.1 s: a slow growth is not seen there.
     if not linear_model(tuned).is_stable():
         raise SimulationError(
@@ -144,10 +144,10 @@ def feed_forward(
 
     ``positive`` and ``negative`` are the limits of the travel from the present position, in counts.
     """
-    quiet = with_figures(axis, {loop.INTEGRAL: 0.0, loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0})
+    quiet = _with_figures(axis, {loop.INTEGRAL: 0.0, loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0})
 
     def error(share: float) -> float:
-        trial = with_figures(quiet, {loop.FEED_FORWARD: share})
+        trial = _with_figures(quiet, {loop.FEED_FORWARD: share})
         # The direction that is ahead sooner decides: the error must not be negative in either.
         return min(_at_speed(trial, positive, speed), _at_speed(trial, negative, speed))
 
@@ -161,11 +161,11 @@ def feed_forward(
         )
     gain = float(math.floor(share * scales.feed_forward))
     return CommandResult(
-        {ids.gain_feedforward: gain}, with_figures(axis, {loop.FEED_FORWARD: gain / scales.feed_forward})
+        {ids.gain_feedforward: gain}, _with_figures(axis, {loop.FEED_FORWARD: gain / scales.feed_forward})
     )
 
 
-def with_figures(axis: AxisLaw, figures: dict[int, float]) -> AxisLaw:
+def _with_figures(axis: AxisLaw, figures: dict[int, float]) -> AxisLaw:
     """Return the axis with other figures of its loop; its linear model has the same gains."""
     parameters, linear = list(axis.parameters), list(axis.linear_parameters or axis.parameters)
     for place, value in figures.items():
@@ -213,14 +213,14 @@ def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:
     ramp = increment / WAY**2
     speed = ramp * WAY
     there_and_back = [Piece(WAY, 0.0, ramp), Piece(2.0 * WAY, speed, -ramp), Piece(WAY, -speed, ramp)]
-    motion = run(axis, profile_of(there_and_back, 0.0), REST, mode)
+    motion = run(axis, profile_of(there_and_back, 0.0), _REST, mode)
     position = motion.columns["position"]
-    last = position[motion.columns["time_s"] > 4.0 * WAY + 0.5 * REST]
+    last = position[motion.columns["time_s"] > 4.0 * WAY + 0.5 * _REST]
     if motion.stop != 0 or last.size < 2:
         return True
     # Less the way from first to last: creeping to the end is no vibration.
     to_and_fro = float(np.abs(np.diff(last)).sum()) - abs(float(last[-1] - last[0]))
-    return to_and_fro > QUIET
+    return to_and_fro > _QUIET
 
 
 def _third_of_gain(name: str, too_much: Callable[[float], bool]) -> float:
@@ -232,10 +232,10 @@ def _third_of_gain(name: str, too_much: Callable[[float], bool]) -> float:
         raise SimulationError(f"The shaft vibrates at a {name} of {high:g}: it cannot be tuned")
     while high < LARGEST and not too_much(high):
         low, high = high, min(2.0 * high, float(LARGEST))
-    for _ in range(HALVES):
+    for _ in range(_HALVES):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if too_much(middle) else (middle, high)
-    return float(math.floor(low * LEFT))
+    return float(math.floor(low * _LEFT))
 
 
 def _greatest(most: float, good: Callable[[float], bool]) -> float:
@@ -245,7 +245,7 @@ def _greatest(most: float, good: Callable[[float], bool]) -> float:
     if good(most):
         return most
     low, high = 0.0, most
-    for _ in range(HALVES + 4):
+    for _ in range(_HALVES + 4):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if good(middle) else (low, middle)
     if low == 0.0:

@@ -48,7 +48,7 @@ from .law_zones import zones
 if TYPE_CHECKING:
     pass
 
-SHORTEST, LONGEST = 1e-4, 0.1
+_SHORTEST, _LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
 
 _NEEDED = (
@@ -145,7 +145,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         limits=limits,
         stops_at="MOT-019",
         sources=_sources(read, axis),
-        assumptions=(*notes, *ALWAYS),
+        assumptions=(*notes, *_ALWAYS),
         assumed=MOTION.reasons(
             "acceleration_per_output", "velocity_bandwidth", "velocity_integral", "inertia_ratio"
         ),
@@ -214,10 +214,10 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
         notes.append(f"ASSUMED: hardware basic time {basic:g} us; for this series none is printed (1.4.1).")
     setting = read.number(ids.interpolation_time, everywhere=True)
     period = interpolation_time_us(setting, basic) * 1e-6
-    if not SHORTEST <= period <= LONGEST:
+    if not _SHORTEST <= period <= _LONGEST:
         raise SimulationError(
             f"{read.called(ids.interpolation_time, everywhere=True)} is {setting:g}, an interpolation time of"
-            f" {period * 1e3:g} ms; simulated are {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
+            f" {period * 1e3:g} ms; simulated are {_SHORTEST * 1e3:g} to {_LONGEST * 1e3:g} ms",
             ids.interpolation_time,
         )
     home = read.optional(ids.first_speed)
@@ -333,7 +333,7 @@ def _alarms(axis: _Axis) -> dict[int, AlarmText]:
     }
 
 
-ALWAYS = (
+_ALWAYS = (
     "The BLU is 0.001 mm or deg, as delivered on a metric machine (1.2.6).",
     (
         "In every interpolation time the control sends the whole pulses of what was commanded up to its"

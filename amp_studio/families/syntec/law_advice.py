@@ -12,9 +12,9 @@ from amp_studio.sim import AxisLaw, Recommendation, Trace, value_text
 from . import law_sample as sample
 from .law_facts import ids
 
-MIN_GRID, MAX_GRID = 20.0, 80.0
+_MIN_GRID, _MAX_GRID = 20.0, 80.0
 """% of a turn between dog and index (2.2)."""
-RECOMMENDED = 2000.0
+_RECOMMENDED = 2000.0
 """Pr3203 should not be below (1.5.1)."""
 
 
@@ -32,13 +32,13 @@ def _grid(trace: Trace) -> Iterator[Recommendation]:
     that it may be missed (2.2).
     """
     grid = trace.result.get("home_grid", (None, "%"))[0]
-    if grid is None or MIN_GRID <= grid <= MAX_GRID:
+    if grid is None or _MIN_GRID <= grid <= _MAX_GRID:
         return
     yield Recommendation(
         ids.home_grid,
         1.0,
         "",
-        f"The home grid is {value_text(grid, '%', 3)}: below {MIN_GRID:g} or above {MAX_GRID:g} % "
+        f"The home grid is {value_text(grid, '%', 3)}: below {_MIN_GRID:g} or above {_MAX_GRID:g} % "
         "the index"
         " lies so near to the dog that it may be missed once and found the next time (page 2.2).",
         "An index within half a turn of the dog is passed, and home moves by a turn.",
@@ -58,7 +58,7 @@ def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     time, rapid = axis.sources["servo_period"], axis.sources["feedrate"]
     setting = math.floor(axis.servo_period * time.scale * most / pulses)
     why = f"{value_text(math.ceil(pulses))} pulses in one interpolation time, and {most:g} are allowed"
-    if setting >= RECOMMENDED:
+    if setting >= _RECOMMENDED:
         yield Recommendation(
             time.parameter,
             float(setting),

@@ -10,27 +10,27 @@ from .law_facts import ids
 
 BLU = 0.001
 """mm or deg (1.2.6)."""
-HALF = 0.5
+_HALF = 0.5
 """Share of a turn below which home grid passes an index over (2.2)."""
-PITCHES = 5.0
+_PITCHES = 5.0
 """Turns without an index, or on the dog, after which MOT-029 and MOT-036 come (2.2)."""
-SCATTER = 0.1
+_SCATTER = 0.1
 """Turns between the home grids of two homings from which MOT-022 comes (2.2)."""
-FARTHEST_BLU = 999999999.0
+_FARTHEST_BLU = 999999999.0
 """The delivered stroke limits: none (3.2)."""
 
-WINDOW_NOTE = (
+_WINDOW_NOTE = (
     "ASSUMED: a unit of the zero-speed window Pr901 is a BLU; the slides print neither unit nor range (2.2,"
     " alarms)."
 )
-NOTES = (
+_NOTES = (
     "Onto the dog at the first speed, stop, off it backwards at the second, on to the nearest index (2.2).",
     (
         "ASSUMED: a unit of Axis home offset is a BLU, its sign the machine's; neither is printed (2.2). The"
         " axis stops along its ramp and returns to the index at the second speed."
     ),
 )
-STOPPED = "ASSUMED: beyond the limit the command stops at once; the slides print the alarm alone (3.2)."
+_STOPPED = "ASSUMED: beyond the limit the command stops at once; the slides print the alarm alone (3.2)."
 
 
 def homing(read: AxisParameters, turn: float) -> Homing:
@@ -57,23 +57,25 @@ def homing(read: AxisParameters, turn: float) -> Homing:
         coordinate=offset if stays else 0.0,
         final=second,
         offset=0.0 if stays else offset,
-        skipped=HALF if read.value(ids.home_grid) is True else 0.0,
+        skipped=_HALF if read.value(ids.home_grid) is True else 0.0,
         failures=_failures(read, turn),
         rest_window=math.inf if not window else window * BLU,
         speeds={"approach": ids.first_speed, "leave": ids.second_speed, "final": ids.second_speed},
         page="2.2",
-        notes=(*NOTES, WINDOW_NOTE) if window else NOTES,
+        notes=(*_NOTES, _WINDOW_NOTE) if window else _NOTES,
     )
 
 
 def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
     """Return the alarms of a homing (2.2, alarms), lengths in turns of the motor between two indices."""
     turns = read.optional(ids.protective_turns)
-    far = (turns or PITCHES) * turn
+    far = (turns or _PITCHES) * turn
     given = f"the {turns:g} turns of its protective revolution" if turns else "5 pitches"
     return {
         "marker": Failure(
-            "MOT-029", "Miss index in homing: 5 pitches from the dog no index has come (2.2).", PITCHES * turn
+            "MOT-029",
+            "Miss index in homing: 5 pitches from the dog no index has come (2.2).",
+            _PITCHES * turn,
         ),
         "stuck": Failure("MOT-036", f"Can't leave Home Dog: it is still on after {given} (2.2).", far),
         "moving": Failure(
@@ -85,7 +87,7 @@ def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
             "MOT-022",
             "Home position inaccurate: the home grid differs from that of the first homing by more than 0.1"
             " turn (2.2).",
-            SCATTER,
+            _SCATTER,
         ),
     }
 
@@ -98,24 +100,24 @@ def jogging(read: AxisParameters) -> Jogging:
 def travel(read: AxisParameters) -> Travel:
     """Return the first software stroke limits (Pr2401), which are active after homing (3.2)."""
     edges = []
-    for name, none in ((ids.limit_first_negative, -FARTHEST_BLU), (ids.limit_first_positive, FARTHEST_BLU)):
+    for name, none in ((ids.limit_first_negative, -_FARTHEST_BLU), (ids.limit_first_positive, _FARTHEST_BLU)):
         value = read.optional(name)
         edges.append(math.copysign(math.inf, none) if value in (None, none) else float(value or 0.0) * BLU)
     return Travel(
         {"the 1st software stroke limit": (edges[0], edges[1])},
         "MOT-017",
         "3.2",
-        (STOPPED,),
+        (_STOPPED,),
         alarm_negative="MOT-018",
         reads_ahead="COR-040",
     )
 
 
-WHEELED = (
+_WHEELED = (
     "A pulse of the handwheel moves the axis by Pr2001 at the fourth step of the MPG override; what the"
     " other steps give is not printed (4.1). ASSUMED: a LIU is a BLU."
 )
-WHEEL_RAMP = "ASSUMED: Pr410 is the time of a straight ramp to the MPG feedrate (4.1)."
+_WHEEL_RAMP = "ASSUMED: Pr410 is the time of a straight ramp to the MPG feedrate (4.1)."
 
 
 def handwheel(read: AxisParameters, wheel: str) -> Handwheel:
@@ -142,5 +144,5 @@ def handwheel(read: AxisParameters, wheel: str) -> Handwheel:
         read.optional(ids.mpg_resolution, everywhere=True) or None,
         Ramp("linear", speed / (time / 1000.0)) if time else None,
         "4.1",
-        (WHEELED, *((WHEEL_RAMP,) if time else ())),
+        (_WHEELED, *((_WHEEL_RAMP,) if time else ())),
     )

@@ -37,8 +37,8 @@ PARAMETERS = 6
 # State: pulses sent up to this interpolation time and up to its end, samples since it began; then the last
 # references
 FROM, TO, PART = range(3)
-RING = 3
-STATES = RING + PARTS
+_RING = 3
+STATES = _RING + PARTS
 
 # Monitors
 PULSES = 0
@@ -89,8 +89,8 @@ def sent(p: Vector, s: Vector, io: Vector) -> float:
 
 def late(s: Vector, command: float) -> float:
     """Return the command one interpolation time ago: what evenly spread pulses are without their steps."""
-    oldest = s[RING + PARTS - 1]
+    oldest = s[_RING + PARTS - 1]
     for place in range(PARTS - 1, 0, -1):
-        s[RING + place] = s[RING + place - 1]
-    s[RING] = command
+        s[_RING + place] = s[_RING + place - 1]
+    s[_RING] = command
     return oldest

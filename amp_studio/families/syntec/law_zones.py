@@ -10,12 +10,12 @@ from .law_facts import ids
 
 BLU = 0.001
 """mm or deg (1.2.6)."""
-READ_AHEAD = "COR-040"
+_READ_AHEAD = "COR-040"
 NOTE = (
     "A pair counts in either order; equal values switch the axis off (3.2). ASSUMED: the command stops at"
     " once; the slides print the alarms alone."
 )
-TIERS = (("2", "second", "MOT-044", "MOT-037", "MOT-038"), ("3", "third", "MOT-045", "MOT-041", "MOT-042"))
+_TIERS = (("2", "second", "MOT-044", "MOT-037", "MOT-038"), ("3", "third", "MOT-045", "MOT-041", "MOT-042"))
 """Number, name of the parameters, code of going in, of leaving at the plus and the minus side."""
 
 
@@ -31,7 +31,7 @@ def _sides(machine: BoundMachine, name: str) -> Iterator[tuple[str, tuple[float,
 def zones(machine: BoundMachine, _axes: Sequence[str]) -> Iterator[Zone]:
     """Yield both areas; the second is on by Pr3838, the third by C83 of the PLC."""
     read = machine.parameters
-    for number, name, enters, plus, minus in TIERS:
+    for number, name, enters, plus, minus in _TIERS:
         sides = dict(_sides(machine, name))
         if not sides:
             continue
@@ -47,5 +47,5 @@ def zones(machine: BoundMachine, _axes: Sequence[str]) -> Iterator[Zone]:
             code_minus=minus,
             page="3.2",
             notes=(NOTE,),
-            reads_ahead=READ_AHEAD,
+            reads_ahead=_READ_AHEAD,
         )

@@ -37,7 +37,7 @@ _SENTENCE, _LONGEST_WORD = 4, 30
 _FOREIGN = r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
 """Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin,
 Greek and Cyrillic."""
-FONT = "Libertinus Serif"
+_FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
 _PACKAGE = re.compile(r'(?:import|include)\s*"@')
 _FAMILY = re.compile(r'font-family="[^"]*"')
@@ -171,7 +171,7 @@ def _tied(text: str) -> str:
 def _drawing(svg: str) -> Exact:
     """Return a drawing in the font of the page, with spaces that stay."""
     return Exact(
-        _FAMILY.sub(f'font-family="{FONT}"', svg).translate({0x2002: "\u00a0", 0x2003: "\u00a0\u00a0"})
+        _FAMILY.sub(f'font-family="{_FONT}"', svg).translate({0x2002: "\u00a0", 0x2003: "\u00a0\u00a0"})
     )
 
 

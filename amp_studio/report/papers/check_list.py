@@ -24,7 +24,7 @@ from amp_studio.version import __version__
 from .endings import write_by_ending
 
 WIDTH = 100
-AT_MACHINE = "Tests at the machine"
+_AT_MACHINE = "Tests at the machine"
 _MAX_CHOICES = 6
 """Choices that a line of the list still has room for."""
 
@@ -176,10 +176,10 @@ def open_value(file: ParameterFile, address: Address, words: Language = ENGLISH)
 
 def render_check_list_text(checks: CheckList) -> bytes:
     """Return plain text in UTF-8, of 100 columns."""
-    return ("\n".join(line.rstrip() for line in check_list_lines(checks)) + "\n").encode("utf-8")
+    return ("\n".join(line.rstrip() for line in _check_list_lines(checks)) + "\n").encode("utf-8")
 
 
-def check_list_lines(checks: CheckList) -> Iterator[str]:
+def _check_list_lines(checks: CheckList) -> Iterator[str]:
     """Yield the lines of the list as text."""
     words = language_of(checks.language)
     head = f"{words.text('Check list').upper()}  {printable(checks.title)}"
@@ -200,7 +200,7 @@ def check_list_lines(checks: CheckList) -> Iterator[str]:
         for value in each.values:
             yield from _value_lines(value, words)
     if checks.tests:
-        yield from ("", words.text(AT_MACHINE).upper())
+        yield from ("", words.text(_AT_MACHINE).upper())
     for test in checks.tests:
         yield from _test_lines(test, words)
 
@@ -242,14 +242,14 @@ def render_check_list_html(checks: CheckList) -> bytes:
     return filled_page("check_list.html.j2", language=language_of(checks.language), checks=checks)
 
 
-def render_check_list_pdf(checks: CheckList) -> bytes:
+def _render_check_list_pdf(checks: CheckList) -> bytes:
     """Return the PDF."""
     words = language_of(checks.language)
     return typeset(filled_template("check_list.typ.j2", language=words, checks=checks), checks.date)
 
 
-CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {
-    ".pdf": render_check_list_pdf,
+_CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {
+    ".pdf": _render_check_list_pdf,
     ".html": render_check_list_html,
     ".txt": render_check_list_text,
 }
@@ -259,4 +259,4 @@ def write_check_list(checks: CheckList, path: Path, notify: Notify = lambda _not
     """Write a check list, whole or not at all, in the format of the path's ending; raises ValueError,
     SaveError.
     """
-    write_by_ending(path, CHECK_LIST_FORMATS, checks, "a check list", notify)
+    write_by_ending(path, _CHECK_LIST_FORMATS, checks, "a check list", notify)

@@ -13,7 +13,7 @@ from amp_studio.schema import Value, show_value, visible
 
 from .paper import Paper, PaperTable
 
-LETTERS: dict[Side, str] = {"base": "0", "a": "A", "b": "B"}
+_LETTERS: dict[Side, str] = {"base": "0", "a": "A", "b": "B"}
 """Source -> what it is called."""
 _SHARES = (2.0, 4.6, 1.8, *(2.6,) * 4)
 
@@ -22,7 +22,7 @@ def merge_paper(merge: Merge, names: Mapping[Side, str]) -> Paper:
     """Return a comparison group by group with its result; ``names`` has each source. Secrets are masked."""
     left = len(merge.open_conflicts)
     facts = (
-        *((LETTERS[side], name) for side, name in names.items()),
+        *((_LETTERS[side], name) for side, name in names.items()),
         ("Differ", str(len(merge.differing))),
         ("The same", str(merge.same)),
         ("Conflicts", f"{len(merge.conflicts)}, {left} not settled"),
@@ -35,7 +35,7 @@ def merge_paper(merge: Merge, names: Mapping[Side, str]) -> Paper:
 
 def _table(merge: Merge, group: RowGroup, sides: tuple[Side, ...], result: ParameterFile) -> PaperTable:
     """Return a group of a comparison; the side that the result takes is bold."""
-    heads = ("Number", "Parameter", "Belongs to", *(LETTERS[side] for side in sides), "Result")
+    heads = ("Number", "Parameter", "Belongs to", *(_LETTERS[side] for side in sides), "Result")
     cells, strong = [], set()
     for at, row in enumerate(group.rows):
         choice = merge.choice(row)

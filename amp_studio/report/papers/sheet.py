@@ -21,7 +21,18 @@ from amp_studio.version import __version__
 from .endings import write_by_ending
 
 WIDTH = 100
-HEADS = ("step", "number", "name", "now", "key in", "unit", "value in the file", "page", "read back", "notes")
+_HEADS = (
+    "step",
+    "number",
+    "name",
+    "now",
+    "key in",
+    "unit",
+    "value in the file",
+    "page",
+    "read back",
+    "notes",
+)
 
 
 @dataclass(frozen=True)
@@ -198,7 +209,7 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
     """
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
-    table.writerow(HEADS)
+    table.writerow(_HEADS)
     for _, steps in printed.parts():
         for step in steps:
             e = step.entry
@@ -224,14 +235,14 @@ def render_sheet_html(printed: PrintedSheet) -> bytes:
     return filled_page("sheet.html.j2", language=printed.words, printed=printed, sheet=printed.sheet)
 
 
-def render_sheet_pdf(printed: PrintedSheet) -> bytes:
+def _render_sheet_pdf(printed: PrintedSheet) -> bytes:
     """Return the PDF."""
     source = filled_template("sheet.typ.j2", language=printed.words, printed=printed, sheet=printed.sheet)
     return typeset(source, printed.printed)
 
 
 SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {
-    ".pdf": render_sheet_pdf,
+    ".pdf": _render_sheet_pdf,
     ".html": render_sheet_html,
     ".csv": render_sheet_csv,
     ".txt": render_sheet_text,

@@ -108,7 +108,7 @@ def _counted_out(instances: object, _family: object) -> object:
 Instances = Annotated[tuple[str, ...], First(_counted_out)]
 
 
-REQUIRED: Any = object()
+_REQUIRED: Any = object()
 """The default of a field that has none."""
 
 
@@ -123,13 +123,13 @@ class Model:
     """
 
     fields: ClassVar[Mapping[str, Any]] = {}
-    """Name of each field -> its default, or ``REQUIRED``."""
+    """Name of each field -> its default, or ``_REQUIRED``."""
     _adapter: ClassVar[Any] = None
     """What checks data from outside; made for each kind of record when the first are read."""
 
     def __init_subclass__(cls) -> None:
         # Defaults stay class attributes: what is not stored in a record is found there.
-        own = {name: cls.__dict__.get(name, REQUIRED) for name in cls.__annotations__}
+        own = {name: cls.__dict__.get(name, _REQUIRED) for name in cls.__annotations__}
         cls.fields = {**cls.fields, **own}
 
     def __init__(self, **given: Any) -> None:
@@ -218,7 +218,7 @@ class Model:
         fields = []
         for name, default in cls.fields.items():
             schema = handler.generate_schema(hints[name])
-            if default is not REQUIRED:
+            if default is not _REQUIRED:
                 schema = core_schema.with_default_schema(schema, default=default)
             fields.append(core_schema.dataclass_field(name, schema, kw_only=True))
         return core_schema.dataclass_schema(

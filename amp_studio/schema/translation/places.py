@@ -23,7 +23,7 @@ TextPlace = tuple[str | int, ...]
 """``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
 _FIGURE = re.compile(r"\{([a-z_]+)\}")
 _WITHOUT_PLACE: tuple[TextPlace, ...] = (("phrases",), ("formulas",))
-GRADES = ("danger", "warning", "note")
+_GRADES = ("danger", "warning", "note")
 
 
 def english_texts(compiled: Compiled, further: FurtherFacts) -> dict[TextPlace, str]:
@@ -47,7 +47,7 @@ def names_in(message: str) -> set[str]:
 
 
 def _of_help(parameter: Parameter) -> Iterator[tuple[TextPlace, str]]:
-    for grade in GRADES:
+    for grade in _GRADES:
         notes: tuple[HelpNote, ...] = getattr(parameter.help, grade)
         yield from ((("help", parameter.id, grade, n), note.says) for n, note in enumerate(notes))
 

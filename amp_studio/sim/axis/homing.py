@@ -14,18 +14,18 @@ from amp_studio.sim.rounding import page_text, value_text
 from .moving_axis import MovingAxis
 from .orders import GoOrder, MoveOrder, Order, Orders, PauseOrder, Seen, StopOrder, Watch
 
-MARKERS = 5.0
+_MARKERS = 5.0
 """Turns after which a marker that does not come is none, where no alarm gives the number."""
-REST_AFTER = 0.1
+_REST_AFTER = 0.1
 """s after the stop on the switch at which the following error is compared with the window
 of zero speed (MOT-030)."""
-LOCATE = 5.0
+_LOCATE = 5.0
 """Pull-offs in which a second approach searches the switch (grblHAL config.h, HOMING_AXIS_LOCATE_SCALAR)."""
 NOT_IN_POSITION = (
     "The axis is never in position: its following error at rest stays above the in-position band, {0};"
     " no alarm is printed for it"
 )
-FAR = 1e5
+_FAR = 1e5
 """Turns in which a coded scale is searched for its next markers."""
 
 
@@ -105,7 +105,7 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, ho
     # is in position.
     yield StopOrder(Ramp() if homing.stops_by_switch else ramp, waits=not math.isfinite(homing.rest_window))
     if math.isfinite(homing.rest_window):
-        yield PauseOrder(REST_AFTER)
+        yield PauseOrder(_REST_AFTER)
         if not axis.is_over and abs(axis.position - axis.measured) > homing.rest_window:
             yield from _failed(homing, "moving", ramp, homed, "The axis does not come to rest on the switch")
             return edge
@@ -136,7 +136,7 @@ def _again(
 ) -> Orders:
     """Back off and come onto the switch slowly, as often as asked; after a pull-off stop there at once."""
     sign, back = math.copysign(1.0, homing.approach), homing.pull_off
-    far = LOCATE * back if back else abs(axis.position - edge) + MARKERS * homing.turn
+    far = _LOCATE * back if back else abs(axis.position - edge) + _MARKERS * homing.turn
     for _ in range(homing.passes):
         homed.begin("back", axis, homing.approach)
         if back:
@@ -206,7 +206,7 @@ def _left(
     reach = min(_way(axis, around, sign, homing.turn), stuck.reach if stuck else math.inf)
     # The edge is known here: the axis goes a little past it; a stuck switch is left for as far as
     # the control tries.
-    way = reach if around.is_stuck else abs(axis.position - edge) + MARKERS * homing.turn
+    way = reach if around.is_stuck else abs(axis.position - edge) + _MARKERS * homing.turn
     if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
         way = stuck.reach
     place = sign * math.inf if around.is_stuck else edge
@@ -225,7 +225,7 @@ def _next_marker(
     # The first marker strictly beyond: one exactly at the edge has been passed.
     turns = math.floor(sign * (least - around.marker) / turn) + 1
     marker = around.marker + sign * turns * turn
-    far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
+    far = min(missing.reach if missing else _MARKERS * turn, _way(axis, around, sign, turn))
     # A marker that the control would not wait for never comes for it.
     place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
     speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
@@ -289,7 +289,7 @@ def _way(axis: MovingAxis, around: Surroundings, sign: float, turn: float) -> fl
     if math.isfinite(end):
         return max(sign * (end - axis.position), 0.0)
     # No end of the way is known: a little beyond the switch, or as far as a coded scale is searched.
-    return abs(around.switch - axis.position) + 2.0 * turn if math.isfinite(around.switch) else FAR * turn
+    return abs(around.switch - axis.position) + 2.0 * turn if math.isfinite(around.switch) else _FAR * turn
 
 
 def _failed(homing: Homing, which: str, ramp: Ramp, homed: Homed, text: str) -> Orders:

@@ -24,12 +24,12 @@ PARAMETERS, IO, MACHINE, BEFORE, AFTER, STATE, LINE, TIMING, PROFILE, PUSH = 0, 
 """Places of vectors that `prepared` returns."""
 Engine = Literal["auto", "plain", "compiled"]
 
-LONGEST_STEP = 0.4e-3
+_LONGEST_STEP = 0.4e-3
 """Longest physics step in s."""
 # Leapfrog is stable up to 2; at 0.25 a resonance is off by 0.25²/24, 0.3 % of its frequency.
-STIFFEST_STEP = 0.25
+_STIFFEST_STEP = 0.25
 """Physics step times the fastest rate of the machine."""
-MAX_SUBSTEPS = 10_000
+_MAX_SUBSTEPS = 10_000
 MAX_STEPS = 40_000_000
 """Most physics steps of a run, almost three hours at the longest one."""
 MAX_ROWS = 2_000_000
@@ -217,8 +217,8 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     samples = max(1, round(axis.servo_period / axis.velocity_period))
     sample = axis.servo_period / samples
     # A servo period of whole longest steps gets no step more by rounding.
-    wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
-    if not wanted <= MAX_SUBSTEPS:
+    wanted = max(sample / _LONGEST_STEP - 1e-9, sample * axis.machine.fastest / _STIFFEST_STEP)
+    if not wanted <= _MAX_SUBSTEPS:
         raise SimulationError(
             f"The machine of axis {axis.axis} is too stiff to simulate ({axis.machine.fastest:.6g} 1/s)"
         )

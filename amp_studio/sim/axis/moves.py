@@ -28,14 +28,14 @@ MOVE_SETTINGS = {
 
 PAUSE = 0.1
 """Time at rest in s at the end of every trace; longer for a slow loop."""
-LONGEST_WAIT = 12.0
+_LONGEST_WAIT = 12.0
 """Time constants of the position loop after the end of the command,
 after which an axis is not waited for any more."""
-LONGEST_SETTLING = 5.0
+_LONGEST_SETTLING = 5.0
 """s more than that."""
-LONG_STRETCH = 1e5
+_LONG_STRETCH = 1e5
 """s of a move that reaches its feedrate by any ramp."""
-FOLLOWED = 5.0
+_FOLLOWED = 5.0
 """Time constants of the position loop, or of an exponential ramp, until the axis follows its command."""
 STEADY_LAGS = 6.0
 """Number of time constants of the position loop after which a constant speed can be steady."""
@@ -64,8 +64,8 @@ def move_of(axis: AxisLaw, settings: ScenarioSettings) -> Move:
     if distance == 0.0:
         raise SimulationError("move.distance is 0; it must not be 0", "move.distance")
     if distance is None:
-        # So long a move takes LONG_STRETCH s at its feedrate: what it takes beyond that are its ramps.
-        ramps = end_of(move(LONG_STRETCH * feedrate, feedrate, ramp, count)) - LONG_STRETCH
+        # So long a move takes _LONG_STRETCH s at its feedrate: what it takes beyond that are its ramps.
+        ramps = end_of(move(_LONG_STRETCH * feedrate, feedrate, ramp, count)) - _LONG_STRETCH
         distance = rounded_up(feedrate * (max(ramps, 0.0) + 2.0 * STEADY_LAGS / axis.position_rate), 2)
     if not (math.isfinite(distance) and abs(distance) / feedrate < math.inf):
         raise SimulationError("The move is too long to be simulated. Give move.distance", "move.distance")
@@ -127,11 +127,11 @@ def until_of(axis: AxisLaw, moved: Move, duration: float | None) -> RunEnd:
     if duration is not None:
         return RunEnd(duration)
     lag = 1.0 / axis.position_rate
-    settle = LONGEST_WAIT * lag + LONGEST_SETTLING
+    settle = _LONGEST_WAIT * lag + _LONGEST_SETTLING
     blocks = len(moved.profile) // 8
     return RunEnd(
         # Each exact stop between blocks may be waited for as long as the end is.
-        2.0 * end_of(moved.profile) + settle + blocks * LONGEST_WAIT * lag,
+        2.0 * end_of(moved.profile) + settle + blocks * _LONGEST_WAIT * lag,
         max(axis.inposition_band, axis.rest_band, 1.5 * axis.machine.position_count),
         3.0 * lag + PAUSE,
         settle,
@@ -167,9 +167,9 @@ def ramp_of(axis: AxisLaw, settings: ScenarioSettings) -> Ramp:
 
 def time_to_speed(ramp: Ramp, speed: float) -> float:
     """Return how long the command takes from rest to a speed in u/s, s."""
-    return FOLLOWED * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
+    return _FOLLOWED * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
 
 
 def run_up(axis: AxisLaw, speed: float, ramp: Ramp) -> float:
     """Return a distance in u over which an axis reaches a speed in u/s from rest, and follows it."""
-    return speed * (time_to_speed(ramp, speed) + FOLLOWED / axis.position_rate)
+    return speed * (time_to_speed(ramp, speed) + _FOLLOWED / axis.position_rate)

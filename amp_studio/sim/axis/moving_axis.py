@@ -47,21 +47,21 @@ from .motion import (
 )
 from .orders import GoOrder, MoveOrder, Order, Orders, PauseOrder, Seen, StopOrder, Watch, one
 
-LAGS = 5.0
+_LAGS = 5.0
 """Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
-SETTLE = 20.0
+_SETTLE = 20.0
 """Time constants of the position loop that each wait for in position may take."""
-LONGEST_WAIT = 5.0
+_LONGEST_WAIT = 5.0
 """s more than that."""
-REST = 0.05
+_REST = 0.05
 """s at rest after the last command of a scenario."""
-POSITIONS = (1, 3, 4)
+_POSITIONS = (1, 3, 4)
 """Columns of the rows that are positions."""
-CHUNK = 4096
+_CHUNK = 4096
 """Servo samples of one call of the kernel."""
-LONGEST = 3600.0
+_LONGEST = 3600.0
 """s of one order that are simulated."""
-ROUNDED = 8.0
+_ROUNDED = 8.0
 """Last digits of a position that the sums of a profile may be off."""
 LAW_STATE, MACHINE, PROFILE = 1, 3, 9
 """Places among the vectors of the kernel."""
@@ -89,7 +89,7 @@ class MovingAxis:
         self._origin = 0.0  # where the kernel has its 0
         samples, substeps = steps(axis)
         self._steps, self._samples = samples * substeps, samples
-        vectors, self._rows = prepared(self.axis, [], RunEnd(axis.servo_period * CHUNK), substeps)
+        vectors, self._rows = prepared(self.axis, [], RunEnd(axis.servo_period * _CHUNK), substeps)
         self._vectors: list[Any] = [*vectors]
         """Lists, or arrays once machine code runs."""
         self._chunks: list[npt.NDArray[np.float64]] = []
@@ -172,7 +172,7 @@ class MovingAxis:
         if not self.is_over:
             self._end = self.time
             self._stand_still()
-            self.advance(REST + self.axis.servo_period)
+            self.advance(_REST + self.axis.servo_period)
         whole = np.concatenate(self._chunks) if self._chunks else self._rows[:0]
         names = [*kernel.COLUMNS, *(name for name, _ in self.axis.monitors)]
         return Motion(
@@ -256,7 +256,7 @@ class MovingAxis:
             pieces.append(Piece(self.axis.servo_period, kind=IN_POSITION))
             lasts = sum(piece.duration for piece in pieces)
             # Twice the command and some time constants: an axis that is not there then does not come.
-            self._patience = self.time + 2.0 * lasts + SETTLE / self.axis.position_rate + LONGEST_WAIT
+            self._patience = self.time + 2.0 * lasts + _SETTLE / self.axis.position_rate + _LONGEST_WAIT
         self.order(pieces, sign)
 
     def _going(self, order: GoOrder) -> list[Piece]:
@@ -270,7 +270,7 @@ class MovingAxis:
     def _refuse_longer(self, lasts: float) -> None:
         """Raise SimulationError for a command of more s than are simulated, or than there is room for."""
         room = MAX_ROWS * self.axis.servo_period / self._samples if self._keep else math.inf
-        longest = min(LONGEST, room)
+        longest = min(_LONGEST, room)
         if not lasts < longest:
             raise SimulationError(
                 f"The move of axis {self.axis.axis} takes more than {longest:g} s: give a shorter distance or"
@@ -306,7 +306,7 @@ class MovingAxis:
 
     def behind(self, velocity: float) -> float:
         """Return by how much a command at a velocity goes beyond the farthest place of its event, u."""
-        return LAGS * abs(velocity) / self.axis.position_rate
+        return _LAGS * abs(velocity) / self.axis.position_rate
 
     def switch_off(self) -> None:
         """Take the output away from the drive, as an emergency stop does,
@@ -380,19 +380,19 @@ class MovingAxis:
             timing[k] = kernel.AT_DEVICE if watch.device else kernel.AT_LOAD
             timing[k + 1], timing[k + 2] = watch.sign, watch.at - self._origin
             # The last digits of a command at rest are no way towards the place.
-            hair = ROUNDED * math.ulp(max(abs(self.position), abs(self._origin)))
+            hair = _ROUNDED * math.ulp(max(abs(self.position), abs(self._origin)))
             timing[k + 3] = self.position - self._origin + watch.sign * hair
         found: Seen | None = None
         while not self.is_over:
             before = x[kernel.SAMPLE]
             # In pieces: the rows of a call have a fixed room.
-            timing[kernel.LAST_SAMPLE] = min(last, before + CHUNK)
+            timing[kernel.LAST_SAMPLE] = min(last, before + _CHUNK)
             self._call()
             # Other objects, if the call has just changed lists into arrays.
             x, timing = self._vectors[STATE], self._vectors[TIMING]
             if x[kernel.SEEN]:
                 found = Seen(int(x[kernel.SEEN]) - 1, self.time, self.load, self.measured)
-            if found or x[kernel.SAMPLE] >= last or x[kernel.SAMPLE] < before + CHUNK:
+            if found or x[kernel.SAMPLE] >= last or x[kernel.SAMPLE] < before + _CHUNK:
                 break
         self._take_command()
         return found
@@ -432,7 +432,7 @@ class MovingAxis:
             self._alarm_row = self._count + int(self._vectors[STATE][kernel.ALARM_ROW])
         # The next call of the kernel fills the same rows.
         kept = rows.copy()
-        kept[:, POSITIONS] += self._origin
+        kept[:, _POSITIONS] += self._origin
         self._chunks.append(kept)
         self._count += filled
 

@@ -21,17 +21,17 @@ from .moves import time_to_speed
 from .moving_axis import MovingAxis
 from .orders import GoOrder, MoveOrder, Orders, StopOrder, Watch, one
 
-COAST = 10.0
+_COAST = 10.0
 """s in which an axis that has lost its drive may run out."""
-FIRST_MARKER = 0.25
-"""Turns from where the axis began to a marker, as in `usual_around`."""
-AWAKE = 0.5
+_FIRST_MARKER = 0.25
+"""Turns from where the axis began to a marker, as in `_usual_around`."""
+_AWAKE = 0.5
 """s after the last order in which an axis is still stepped; then it is at rest and costs nothing."""
-SLICE = 0.02
+_SLICE = 0.02
 """s of the machine's time between two looks at what its drive and its markers do."""
 RUNAWAY = "RUNAWAY"
 """Code of an axis whose loop is not stable, where the control itself stops it with none."""
-LONGEST_ADVANCE = 1.0
+_LONGEST_ADVANCE = 1.0
 """s of the machine's time that are made up at most, after its process had no processor."""
 
 
@@ -42,7 +42,7 @@ class SimulatedAxis:
 
     def __init__(self, law: AxisLaw, around: Surroundings | None = None, position: float = 0.0) -> None:
         self.law, self._around = law, around
-        self._moving = MovingAxis(law, engine="plain", keep=False, coast=COAST)
+        self._moving = MovingAxis(law, engine="plain", keep=False, coast=_COAST)
         self._offset = position  # of the control's coordinates
         self._left = 0.0  # s that it is still stepped
         self._due = 0.0  # s that have passed and are less than a servo period, which are stepped later
@@ -97,13 +97,13 @@ class SimulatedAxis:
         """Call the place of the next marker by another position, once the axis passes it in any motion;
         markers are ``turn`` u apart, a quarter turn from where the axis began. Commands stay where they are.
         """
-        first = FIRST_MARKER * turn - self._moved_zero
+        first = _FIRST_MARKER * turn - self._moved_zero
         turns = math.floor((self._moving.measured - first) / turn)
         self._marker_waited = (position, first + turns * turn, first + (turns + 1) * turn)
 
     def bind(self, law: AxisLaw) -> None:
         """Take other parameters over, at rest."""
-        at, moving = self.command, MovingAxis(law, engine="plain", keep=False, coast=COAST)
+        at, moving = self.command, MovingAxis(law, engine="plain", keep=False, coast=_COAST)
         # The 0 of the new moving axis is where the old one is: switches and markers move by the same way.
         if self._around is not None:  # the switches stay where they are in the machine
             self._around = moved(self._around, -self._moving.position)
@@ -137,7 +137,7 @@ class SimulatedAxis:
         self._forget_limit()
         self.is_homed, self._homed = False, Homed()
         if self._around is None:
-            self._around = moved(usual_around(self.law, homing, ramp), self._moving.position)
+            self._around = moved(_usual_around(self.law, homing, ramp), self._moving.position)
         self._begin(self._to_home(homing, ramp, self._around, self._homed))
 
     def switch_off(self) -> None:
@@ -145,7 +145,7 @@ class SimulatedAxis:
         self.is_enabled, self._homed = False, None
         if self._moving.is_busy or abs(self._moving.velocity) > 0.0 or self._left > 0.0:
             self._moving.emergency()
-            self._left = COAST
+            self._left = _COAST
 
     def emergency_stop(self) -> None:
         """Have the drive brake, where it does so, and then be without torque."""
@@ -216,15 +216,15 @@ class SimulatedAxis:
             self._moving.restart()
         if self.is_enabled and not self._moving.is_over:
             self._moving.begin(orders)
-            self._left = AWAKE
+            self._left = _AWAKE
 
     # -- time ------------------------------------------------------------------------------
 
     def advance(self, duration: float) -> None:
         """Step the axis for a time, s."""
-        left = min(duration, LONGEST_ADVANCE)
+        left = min(duration, _LONGEST_ADVANCE)
         while left > 0.0 and self._left > 0.0:
-            step = min(left, SLICE)
+            step = min(left, _SLICE)
             try:
                 self._step(step)
             except (
@@ -233,7 +233,7 @@ class SimulatedAxis:
                 self._end_unbounded_motion(error.what)
                 return
             left -= step
-            self._left = AWAKE if self._moving.is_busy else self._left - step
+            self._left = _AWAKE if self._moving.is_busy else self._left - step
             self._brake(step)
             self._check_stops()
             self._check_marker()
@@ -288,7 +288,7 @@ class SimulatedAxis:
     def _end_unbounded_motion(self, text: str) -> None:
         """Take the drive away from an axis whose motion has no bounds; it is where its command was."""
         at = self.command
-        self._moving = MovingAxis(self.law, engine="plain", keep=False, coast=COAST)
+        self._moving = MovingAxis(self.law, engine="plain", keep=False, coast=_COAST)
         self._offset, self._left, self._homed = at, 0.0, None
         self.alarm, self.is_enabled = AlarmText(RUNAWAY, text), False
 
@@ -296,7 +296,7 @@ class SimulatedAxis:
         """Note what the law stopped for."""
         if self._moving.stop_number > 0 and self.alarm is None:
             self.alarm, self.is_enabled = self.law.alarms.get(self._moving.stop_number), False
-            self._left = COAST  # without its drive it runs out, as after an E-stop
+            self._left = _COAST  # without its drive it runs out, as after an E-stop
 
     def _check_marker(self) -> None:
         """Take the position of the first marker that the axis has passed, where one is waited for."""
@@ -325,7 +325,7 @@ class SimulatedAxis:
             self.alarm = AlarmText("HOME", NOT_IN_POSITION.format(band))
 
 
-def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Surroundings:
+def _usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Surroundings:
     """Return switch and marker of a machine of which nothing is known: from the start at 0,
     far enough to reach the homing speed.
     """

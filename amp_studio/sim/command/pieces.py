@@ -14,7 +14,7 @@ from amp_studio.sim.engine.profiles import EXPONENTIAL, POLYNOMIAL, SINE_SQUARED
 
 from .events import Ramp
 
-TIME_CONSTANTS = 30.0
+_TIME_CONSTANTS = 30.0
 """Time constants after which an exponential ramp has arrived: what is left is 1e-13 of the change."""
 
 
@@ -88,7 +88,7 @@ def _exponential(ramp: Ramp, before: float, difference: float) -> list[Piece]:
     if ramp.time == 0.0:
         return []
     return [
-        Piece(TIME_CONSTANTS * ramp.time, before, difference / ramp.time, kind=EXPONENTIAL, figure=ramp.time)
+        Piece(_TIME_CONSTANTS * ramp.time, before, difference / ramp.time, kind=EXPONENTIAL, figure=ramp.time)
     ]
 
 

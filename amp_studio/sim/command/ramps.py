@@ -15,7 +15,7 @@ from amp_studio.sim.errors import SimulationError
 from .events import Ramp
 from .pieces import Piece, change, length
 
-BISECTIONS = 200
+_BISECTIONS = 200
 """Halvings in which the interval of two floats has no float inside any more."""
 
 
@@ -73,7 +73,7 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
             )
         # The way of both ramps grows with the peak between them, but not all kinds of ramp have a closed
         # form for its inverse. The lower end is used: the ramps are then never longer than the block.
-        for _ in range(BISECTIONS):
+        for _ in range(_BISECTIONS):
             middle = 0.5 * (low + high)
             if middle in (low, high):  # no number lies between them
                 break

@@ -118,7 +118,7 @@ SEEN = 17
 """Number of the watch that interrupted the run, from 1; 0 for none."""
 STATE_SIZE = 18
 
-BOUNDLESS = 1e12
+_BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
 
 
@@ -344,6 +344,6 @@ def run(
                     span,
                 )
         # Not ``>=``: a position that is no number any more is caught by this form alone.
-        if not abs(motor_position) < BOUNDLESS:
+        if not abs(motor_position) < _BOUNDLESS:
             io[STOP] = DIVERGED
         sample += 1

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 from amp_studio.sim.errors import SimulationError
 
-CONTACT = 150.0
+_CONTACT = 150.0
 """Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance;
 an assumption."""
-CONTACT_DAMPING = 1.0
+_CONTACT_DAMPING = 1.0
 """Damping ratio of that contact: it adds no further oscillation; an assumption."""
-RESONANCE_DAMPING = 0.05
+_RESONANCE_DAMPING = 0.05
 """Damping ratio of a resonance that is given without one; an assumption."""
 
 LARGEST = {
@@ -32,10 +32,10 @@ LARGEST = {
 }
 """The largest figures of a machine that are simulated; in u and s."""
 
-STIFFEST = 1e7
+_STIFFEST = 1e7
 """1/s: the highest rate of a machine that is simulated."""
 
-INERTIA_ASSUMED = 1.0
+_INERTIA_ASSUMED = 1.0
 """Load inertia / motor inertia of an axis with two masses and no given ratio; an assumption."""
 
 
@@ -110,7 +110,7 @@ class Machine:
         if self.velocity_per_output > 0.0 and self.velocity_bandwidth == 0.0:
             raise SimulationError("The velocity loop of the drive has no bandwidth; it must be above 0 Hz")
         # Written with "not", so that a rate that is no number (0 times infinity) is refused too.
-        if not self.fastest <= STIFFEST:
+        if not self.fastest <= _STIFFEST:
             raise SimulationError(f"The machine is too stiff to simulate ({self.fastest:.6g} 1/s)")
 
     @property
@@ -123,11 +123,11 @@ class Machine:
         """Frequency (Hz) and damping ratio of motor and load against each other,
         inertia of the load / inertia of the motor.
         """
-        usual = RESONANCE_DAMPING if self.resonance > 0.0 else CONTACT_DAMPING
+        usual = _RESONANCE_DAMPING if self.resonance > 0.0 else _CONTACT_DAMPING
         return (
-            self.resonance or CONTACT,
+            self.resonance or _CONTACT,
             usual if self.damping is None else self.damping,
-            self.inertia_ratio or INERTIA_ASSUMED,
+            self.inertia_ratio or _INERTIA_ASSUMED,
         )
 
     @property

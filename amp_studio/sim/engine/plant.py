@@ -67,7 +67,7 @@ def delayed(line: Vector, slot: int, steps: int, output: float) -> tuple[float, 
     return line[older], line[newer]
 
 
-def wanted_torque(
+def _wanted_torque(
     m: Vector, output: float, speed: float, error_sum: float, against: float, h: float
 ) -> tuple[float, float]:
     """Return the torque that the drive asks its current loop for, limited,
@@ -140,7 +140,7 @@ def stretch(gap: float, twist: float, half: float) -> float:
     return 0.25 * (after * after - before * before) / half
 
 
-def coupling_torque(
+def _coupling_torque(
     m: Vector, twist: float, half: float, difference: float, torque: float, weight: float
 ) -> float:
     """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load,
@@ -172,7 +172,7 @@ def advance(
     """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the
     drive.
     """
-    target, error_sum = wanted_torque(m, output, motor, error_sum, against, h)
+    target, error_sum = _wanted_torque(m, output, motor, error_sum, against, h)
     mean = target
     if m[LAG_MEAN] > 0.0:  # a current loop that is not ideal
         mean = target + (torque - target) * m[LAG_MEAN]
@@ -191,7 +191,7 @@ def advance(
     load_position += 0.5 * h * load
     weight = -m[GRAVITY] - m[SPRING] * load_position
     twist, difference = motor_position - load_position, motor - load
-    coupling = coupling_torque(m, twist, 0.5 * h * difference, difference, mean, weight)
+    coupling = _coupling_torque(m, twist, 0.5 * h * difference, difference, mean, weight)
     before, motor = motor, speed_after(m, MOTOR, motor, mean - coupling)
     load = speed_after(m, LOAD, load, coupling + weight)
     motor_position += 0.5 * h * motor

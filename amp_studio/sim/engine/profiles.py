@@ -13,7 +13,7 @@ from .arrays import Vector
 from .signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY
 
 START, DURATION, POSITION, VELOCITY, ACCELERATION, JERK, KIND, FIGURE = range(8)
-SIXTH = 1.0 / 6.0
+_SIXTH = 1.0 / 6.0
 WIDTH = 8
 """Figures in a piece: s, s, u, u/s, u/s2, u/s3, kind, figure of the kind."""
 
@@ -47,7 +47,7 @@ def command(profile: Vector, piece: int, time: float, io: Vector) -> None:
     kind, figure = profile[k + KIND], profile[k + FIGURE]
     if kind in (POLYNOMIAL, IN_POSITION):
         j = profile[k + JERK]
-        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * SIXTH))
+        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * _SIXTH))
         io[COMMAND_VELOCITY] = v + t * (a + 0.5 * t * j)
         io[COMMAND_ACCELERATION] = a + t * j
     elif kind == EXPONENTIAL:

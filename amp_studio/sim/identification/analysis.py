@@ -26,7 +26,7 @@ from .beyond_friction import SLOWEST, EstimatedFigure, StaticFriction, is_shifte
 from .drive_record import DriveRecord
 from .friction import STANDSTILL, FrictionFit, fit_friction
 
-WAYS = ((STANDSTILL, SLOWEST), (0.08, 0.01), (0.2, 0.03))
+_WAYS = ((STANDSTILL, SLOWEST), (0.08, 0.01), (0.2, 0.03))
 """Shares of the top speed below which rows are left out, of the fit and of the search for static friction."""
 OTHER = 3.0
 """Standard errors from which a figure is another one."""
@@ -115,9 +115,9 @@ def settled_analysis(
     """Return the analysis whose figures the next one does not change beyond its errors, and these figures,
     with what they do change in their errors; raises SimulationError for what the record cannot show.
     """
-    now, way = measured.analysis(), WAYS[0]
+    now, way = measured.analysis(), _WAYS[0]
     figures = others = figures_of(now)
-    for slower in WAYS[1:]:
+    for slower in _WAYS[1:]:
         try:
             later = measured.analysis(*slower)
             others = figures_of(later)

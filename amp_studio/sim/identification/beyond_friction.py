@@ -20,24 +20,24 @@ from amp_studio.sim.tuning.sampled import Matrix
 from .friction import FrictionFit
 from .least_squares import fit as least_squares
 
-FURTHEST_SHIFT = 0.02
+_FURTHEST_SHIFT = 0.02
 """s: a longer shift is not sought."""
-MIN_ROWS = 3
+_MIN_ROWS = 3
 """Rows to both sides that a shift is sought in at least."""
 SURE = 4.0
 """Standard deviations from which a shift or a static friction is there."""
-MIN_SHIFT = 0.2
+_MIN_SHIFT = 0.2
 """Of a row's period: a shorter shift changes nothing."""
 SLOWEST, STRIBECK = 0.003, np.geomspace(0.004, 0.2, 30)
 """Shares of the top speed: below it an axis is at rest; Stribeck speeds that are tried."""
 SEEN = 1.2
 """Times the speed of the slowest row, the Stribeck speed at least: half of its curve is seen."""
-MIN_GAIN = 0.02
+_MIN_GAIN = 0.02
 """Share by which the squares have to become fewer for a static friction."""
-MIN_STATIC_SHARE = 0.05
+_MIN_STATIC_SHARE = 0.05
 """Share of the Coulomb friction below which what is more at the start is none."""
-BINS = 16
-DEPENDS, MIN_BENEFIT = 0.25, 0.02
+_BINS = 16
+_DEPENDS, _MIN_BENEFIT = 0.25, 0.02
 """Share of the residual that its means by speed (or position) explain, and of the torque that they are,
 for a doubt."""
 
@@ -65,7 +65,7 @@ def _rest(directions: Matrix, given: Series) -> Series:
 
 def time_shift(fit: FrictionFit) -> EstimatedFigure:
     """Return by how many s the motion is later than its torque in the record: where the fit is best."""
-    most = max(MIN_ROWS, math.ceil(FURTHEST_SHIFT / fit.period))
+    most = max(_MIN_ROWS, math.ceil(_FURTHEST_SHIFT / fit.period))
     shifts = fit.period * np.arange(
         -most, most + 1
     )  # whole rows: between two of them noise would be less, and look like a better fit
@@ -97,8 +97,8 @@ def time_shift(fit: FrictionFit) -> EstimatedFigure:
 def is_shifted(fit: FrictionFit, shift: EstimatedFigure) -> bool:
     """Return whether a shift is there and matters."""
     # A best shift at the edge of the search may be farther out.
-    inside = abs(shift.value) < max(FURTHEST_SHIFT, MIN_ROWS * fit.period) * 0.98
-    return inside and abs(shift.value) > SURE * shift.error and abs(shift.value) > MIN_SHIFT * fit.period
+    inside = abs(shift.value) < max(_FURTHEST_SHIFT, _MIN_ROWS * fit.period) * 0.98
+    return inside and abs(shift.value) > SURE * shift.error and abs(shift.value) > _MIN_SHIFT * fit.period
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ def static_friction(fit: FrictionFit, coulomb: float, slowest: float = SLOWEST) 
     refined = least_squares(lambda there: left(speed_of(there))[0], np.array([math.log(best)]))
     over = speed_of(refined.parameters)
     rest, more = left(over)
-    if float(rest @ rest) > (1.0 - MIN_GAIN) * float(plain @ plain):
+    if float(rest @ rest) > (1.0 - _MIN_GAIN) * float(plain @ plain):
         return None
     if not SEEN * slowest * top < over < 1.5 * STRIBECK[-1] * top:
         return None
@@ -173,7 +173,7 @@ def static_friction(fit: FrictionFit, coulomb: float, slowest: float = SLOWEST) 
     rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 7.0)
     spread = np.diag(np.linalg.pinv(slopes.T @ slopes)) / sizes**2 * float(rest @ rest) / rows
     error, speed_error = np.sqrt(np.maximum(spread[-2:], 0.0)).tolist()
-    if more < SURE * error or more < MIN_STATIC_SHARE * max(coulomb, 1e-12):
+    if more < SURE * error or more < _MIN_STATIC_SHARE * max(coulomb, 1e-12):
         return None
     blur = _blur(speed, acceleration, curve, over, fit)
     return StaticFriction(
@@ -204,14 +204,14 @@ def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
     size = float(np.sqrt(np.mean(fit.torque[used] ** 2)))
     way = np.cumsum(fit.velocity)[used] * fit.period
     for name, by in (("speed", fit.velocity[used]), ("position", way)):
-        edges = np.linspace(float(by.min()), float(by.max()) + 1e-12, BINS + 1)
-        places = np.clip(np.digitize(by, edges) - 1, 0, BINS - 1)
-        counts = np.bincount(places, minlength=BINS)
-        means = np.bincount(places, weights=rest, minlength=BINS) / np.maximum(counts, 1)
+        edges = np.linspace(float(by.min()), float(by.max()) + 1e-12, _BINS + 1)
+        places = np.clip(np.digitize(by, edges) - 1, 0, _BINS - 1)
+        counts = np.bincount(places, minlength=_BINS)
+        means = np.bincount(places, weights=rest, minlength=_BINS) / np.maximum(counts, 1)
         explained = float((counts * means**2).sum() / max(float((rest**2).sum()), 1e-300))
         # A bin with less than an eighth of its share of the rows has a mean of noise.
-        largest = float(np.abs(means[counts > len(rest) // (8 * BINS)]).max(initial=0.0))
-        if explained > DEPENDS and largest > MIN_BENEFIT * size:
+        largest = float(np.abs(means[counts > len(rest) // (8 * _BINS)]).max(initial=0.0))
+        if explained > _DEPENDS and largest > _MIN_BENEFIT * size:
             at = float(edges[int(np.argmax(np.abs(means)))])
             yield (
                 f"What inertia and friction leave depends on the {name}: up to "

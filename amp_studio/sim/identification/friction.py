@@ -5,7 +5,7 @@ the negative one. The equation is linear in J, b, c+ and c-, so it stays true wh
 acceleration pass the same filter, which takes out noise and the steps of counts without a bias (the filter of
 an inverse dynamic identification: M. Gautier, *Dynamic identification of robots with power model*, IEEE ICRA
 1997). What is left of the noise in the acceleration would make J too small; the filter is the shortest one
-with which that is below ``WANTED_NOISE``.
+with which that is below ``_WANTED_NOISE``.
 """
 
 from __future__ import annotations
@@ -20,31 +20,31 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 from amp_studio.sim.tuning.sampled import Matrix
 
-MIN_ROWS = 100
-WANTED_NOISE, MAX_NOISE = 1e-3, 2e-2
+_MIN_ROWS = 100
+_WANTED_NOISE, _MAX_NOISE = 1e-3, 2e-2
 """Share of noise in the variance of the filtered acceleration: J is too small by it."""
 STANDSTILL = 0.02
 """Share of the top speed below which the axis counts as standing:
 there the friction has any value up to the static one."""
-MIN_SPREAD, MIN_CRUISE_SPREAD = 0.15, 0.05
+_MIN_SPREAD, _MIN_CRUISE_SPREAD = 0.15, 0.05
 """Standard deviation of the speed over the top speed, of all rows and of those without acceleration,
 where there are many."""
 CRUISING, MANY = 0.1, 0.3
 """Share of the largest acceleration below which a row has none; share of rows that are many."""
-MAX_CONDITION = 200.0
+_MAX_CONDITION = 200.0
 """Of the normalised columns of the equation."""
-FLAT_RUN, FLAT_SHARE = 10, 0.02
+_FLAT_RUN, _FLAT_SHARE = 10, 0.02
 """Rows of exactly the largest (or smallest) torque one after the other, and their share of the record:
 a limit."""
-MUCH_LONGER, SETTLED, MIN_KEPT = 3.0, 0.01, 0.7
+_MUCH_LONGER, _SETTLED, _MIN_KEPT = 3.0, 0.01, 0.7
 """Times as long a filter is, the share by which J may change with it, and of the rows that it has to
 leave."""
-MIN_FIT = 0.5
+_MIN_FIT = 0.5
 """r² below which the record does not show this axis."""
 MAX_ERROR = 0.2
 """Standard error of J over J."""
 
-SWINGS, SWINGING = 50.0, 0.5
+_SWINGS, _SWINGING = 50.0, 0.5
 """Hz at which a load may swing that the record does not show, and its share of J: an assumption."""
 
 
@@ -84,8 +84,8 @@ def fit_friction(
     """
     moved = velocity if velocity is not None else position
     assert moved is not None
-    if len(time) < MIN_ROWS:
-        raise SimulationError(f"The record has too few rows: {len(time)} of at least {MIN_ROWS}")
+    if len(time) < _MIN_ROWS:
+        raise SimulationError(f"The record has too few rows: {len(time)} of at least {_MIN_ROWS}")
     time, (moved, torque) = even_record(time, moved, torque)
     _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
     period = float(time[1] - time[0])
@@ -105,13 +105,13 @@ def fit_friction(
         width = wider.pop(0)
         found = _filtered(width, inner, speed, acceleration, torque)
         used = _one_direction(speed, width, slowest)
-        if used.sum() < MIN_ROWS // 2:
+        if used.sum() < _MIN_ROWS // 2:
             break
         left = noise * _gain(taps, width)
         share = left / (float(np.var(found[2][used])) or 1.0)
         if best is None or share < best[0]:
             best = share, left, width, found, used
-        if share < WANTED_NOISE:
+        if share < _WANTED_NOISE:
             break
     if best is None:
         raise SimulationError(
@@ -119,7 +119,7 @@ def fit_friction(
         )
     share, left, width, found, used = best
     _refuse_motion(found[1][used], found[2][used])
-    if share > MAX_NOISE:
+    if share > _MAX_NOISE:
         raise SimulationError(
             "The record shows no acceleration above its noise: record moves with longer or steeper ramps, "
             "or more samples a second"
@@ -128,7 +128,7 @@ def fit_friction(
 
     def with_filter(longer: int) -> FrictionFit | None:
         used = _one_direction(speed, longer, slowest)
-        if used.sum() < MIN_KEPT * fit.used:
+        if used.sum() < _MIN_KEPT * fit.used:
             return None
         found = _filtered(longer, inner, speed, acceleration, torque)
         return _solved(period, longer, found, used, noise * _gain(taps, longer), rows=len(time))
@@ -145,14 +145,14 @@ def _of_one_mass(
     longer filter finds another inertia.
     """
     for longer in wider:
-        if longer < MUCH_LONGER * width:
+        if longer < _MUCH_LONGER * width:
             continue
         try:
             other = with_filter(longer)
         # A filter so long leaves too little of the motion: what was found before counts.
         except SimulationError:
             break
-        if other is None or abs(other.coefficients[0] / fit.coefficients[0] - 1.0) < SETTLED:
+        if other is None or abs(other.coefficients[0] / fit.coefficients[0] - 1.0) < _SETTLED:
             break
         fit, width = other, longer
     return fit
@@ -176,8 +176,8 @@ def _refuse_limit(torque: Series, speed: Series) -> None:
         at_limit = np.concatenate([[0], ((torque == limit) & moves).astype(np.int8), [0]])
         edges = np.flatnonzero(np.diff(at_limit))
         lengths = edges[1::2] - edges[::2]
-        flat += int(lengths[lengths >= FLAT_RUN].sum())
-    if flat > FLAT_SHARE * len(torque):
+        flat += int(lengths[lengths >= _FLAT_RUN].sum())
+    if flat > _FLAT_SHARE * len(torque):
         raise SimulationError(
             f"The torque stays at its largest value in {flat} of {len(torque)} rows: it is at a limit. "
             "Record moves with a lower acceleration"
@@ -192,14 +192,14 @@ def _refuse_motion(velocity: Series, acceleration: Series) -> None:
             "The axis moves in one direction only: dry friction and weight look the same. Record moves in"
             " both directions"
         )
-    if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < MIN_ROWS // 5:
+    if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < _MIN_ROWS // 5:
         raise SimulationError(
             "The axis moves too little in one of both directions: record longer moves in both"
         )
     speed = np.abs(velocity)
     cruise = speed[np.abs(acceleration) < CRUISING * float(np.abs(acceleration).max())]
-    is_one = len(cruise) > MANY * len(speed) and float(cruise.std()) < MIN_CRUISE_SPREAD * top
-    if is_one or float(speed.std()) < MIN_SPREAD * top:
+    is_one = len(cruise) > MANY * len(speed) and float(cruise.std()) < _MIN_CRUISE_SPREAD * top
+    if is_one or float(speed.std()) < _MIN_SPREAD * top:
         raise SimulationError(
             "The axis moves at one speed only: friction that rises with the speed looks like dry friction. "
             "Record moves at several speeds"
@@ -305,7 +305,7 @@ def _solved(
     known, given = table[used], torque[used]
     sizes = np.sqrt((known**2).sum(axis=0))
     # Columns of one length, so that the condition is one of the motion and not of its units.
-    if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MAX_CONDITION:
+    if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > _MAX_CONDITION:
         raise SimulationError(
             "Acceleration, speed and direction change together in this record: record moves at several speeds"
             " and accelerations"
@@ -329,7 +329,7 @@ def _solved(
         )
     covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
     covariance[0, 0] += (_load_swing_share(acceleration, used, period) * coefficients[0]) ** 2
-    if r_squared < MIN_FIT:
+    if r_squared < _MIN_FIT:
         raise SimulationError(
             f"Inertia and friction explain only {max(0.0, 100.0 * r_squared):.0f} % of the torque: "
             "the columns do not belong together, or something else loads the axis"
@@ -364,7 +364,7 @@ def _load_swing_share(acceleration: Series, used: npt.NDArray[np.bool_], period:
     """
     jerk = np.gradient(acceleration, period)[used]
     rate = float(np.mean(jerk**2) / np.mean(acceleration[used] ** 2))
-    return SWINGING * rate / (2.0 * np.pi * SWINGS) ** 2
+    return _SWINGING * rate / (2.0 * np.pi * _SWINGS) ** 2
 
 
 def _least_squares(known: Matrix, given: Series, noise: float) -> Series:

@@ -15,7 +15,7 @@ from amp_studio.sim.tuning.sampled import Matrix
 STEPS = 200
 SMALL = 1e-7
 """Step of a difference; every parameter is scaled so that 1 is much."""
-ENOUGH = 1e-12
+_ENOUGH = 1e-12
 """Share by which the sum has to become smaller to go on."""
 
 
@@ -52,7 +52,7 @@ def fit(
             tried = residual(there + step)
             now = float(tried @ tried)
             if np.isfinite(now) and now < cost:
-                better = cost - now > ENOUGH * cost
+                better = cost - now > _ENOUGH * cost
                 # Closer to Gauss and Newton after a success, closer to the steepest descent after a
                 # failure.
                 there, rest, cost, damping = there + step, tried, now, max(damping / 10.0, 1e-12)

@@ -11,17 +11,17 @@ from amp_studio.sim.series import Series
 from .beyond_friction import SURE, EstimatedFigure
 from .friction import FrictionFit
 
-CRUISING = 0.2
+_CRUISING = 0.2
 """Share of the largest acceleration below which friction decides on which side of its backlash an axis is."""
-MIN_ROWS = 40
-WEIGHT = 0.5
+_MIN_ROWS = 40
+_WEIGHT = 0.5
 """Share of the dry friction, of which the load may have that much only, from which a weight may be more."""
 
 
 def is_closed_by_weight(fit: FrictionFit) -> bool:
     """Return whether the weight may keep the gap closed on the same side in both directions."""
     _, _, ahead, back = fit.coefficients.tolist()
-    return bool(abs(ahead + back) > WEIGHT * (ahead - back))
+    return bool(abs(ahead + back) > _WEIGHT * (ahead - back))
 
 
 def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> EstimatedFigure | None:
@@ -36,9 +36,9 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     way = np.interp(fit.time, time, motor)
     gap = np.interp(fit.time, time, load) - way
     acceleration = np.abs(np.gradient(fit.velocity, fit.period))
-    steady = fit.is_used & (acceleration < CRUISING * float(acceleration.max()))
+    steady = fit.is_used & (acceleration < _CRUISING * float(acceleration.max()))
     forward = fit.velocity > 0.0
-    if min((steady & forward).sum(), (steady & ~forward).sum()) < MIN_ROWS:
+    if min((steady & forward).sum(), (steady & ~forward).sum()) < _MIN_ROWS:
         return None
     # Around its mean: a scale error then takes nothing of the offset of a direction.
     away = way - way[steady].mean()

@@ -23,7 +23,7 @@ from .recording import MIN_ROWS, SIGNALS, SignalRecord, Trigger, read_recording
 
 MAX_ROWS = 20_000
 """Rows in which the lag is sought; longer traces are thinned for it."""
-COARSE = 8.0
+_COARSE = 8.0
 """Rows of the simulation from one of the record to the next, from which it is compared at its readings
 alone.
 """
@@ -32,7 +32,7 @@ _TRIED = 2000
 """Lags that are tried of a coarse record."""
 
 
-def channels_of(recording: SignalRecord, trace: Trace) -> dict[str, Series]:
+def _channels_of(recording: SignalRecord, trace: Trace) -> dict[str, Series]:
     """Return the signals of a recording that the trace has too, in its units; raises SimulationError."""
     found = {
         signal: values
@@ -76,12 +76,12 @@ def laid_over(trace: Trace, record: Path | SignalRecord, trigger: Trigger | None
     Raises SimulationError for a record that does not fit, OSError where it cannot be read.
     """
     recording = record if isinstance(record, SignalRecord) else read_recording(record)
-    name, time, signals = recording.name, recording.time, channels_of(recording, trace)
+    name, time, signals = recording.name, recording.time, _channels_of(recording, trace)
     if len(time) < MIN_ROWS:
         raise SimulationError(f"{name}: {len(time)} rows are too few: at least {MIN_ROWS}")
     here = trace.columns["time_s"]
     first = next(iter(each for each in SIGNALS if each in signals))
-    is_coarse = float(np.median(np.diff(time))) > COARSE * float(np.median(np.diff(here)))
+    is_coarse = float(np.median(np.diff(time))) > _COARSE * float(np.median(np.diff(here)))
     if trigger is None:
         seek = _lag_of_readings if is_coarse else _lag
         lag = seek(here, trace.columns[first], time, signals[first])

@@ -26,19 +26,19 @@ from .response import FrequencyResponse
 
 QUANTITIES = {"position": 1, "velocity": 0, "acceleration": -1}
 """What moves -> how often the velocity is integrated."""
-MAX_PAIRS = 3
-PLACES, RATIOS, DAMPING = 36, (0.25, 1.0, 3.0), 0.04
+_MAX_PAIRS = 3
+_PLACES, _RATIOS, _DAMPING = 36, (0.25, 1.0, 3.0), 0.04
 """Frequencies at which a pair is tried first, ratios of load and motor, damping of the first try."""
-STARTS = 3
-WORSE = 1.5
+_STARTS = 3
+_WORSE = 1.5
 """Of the mean square residual: another quantity or side that is so much worse is another one."""
-MAX_CORNER = 0.3
+_MAX_CORNER = 0.3
 """Share of the highest frequency: an axis whose friction decides up to there is another quantity."""
-LOWEST_PAIR, HIGHEST_PAIR = 1.5, 1.2
+_LOWEST_PAIR, _HIGHEST_PAIR = 1.5, 1.2
 """Times the lowest and the highest frequency between which a resonance is one."""
-MIN_RATIO = 1e-3
+_MIN_RATIO = 1e-3
 """Load and motor: a smaller one is a pair that takes itself out, and none."""
-MIN_FIT = 0.35
+_MIN_FIT = 0.35
 """Root mean square residual (Np and rad) from which a model does not describe a response."""
 
 
@@ -145,7 +145,7 @@ def _fit_plant(response: FrequencyResponse, quantity: str | None) -> PlantFit:
         if quantity in (None, name)
         for shape, fitted in _fits(response, name)
         if _is_inside(shape, fitted, response)
-        if quantity is not None or _corner(fitted) < MAX_CORNER * response.frequency[-1]
+        if quantity is not None or _corner(fitted) < _MAX_CORNER * response.frequency[-1]
     ]
     # Gain and phase of each frequency.
     count = 2 * len(response.frequency)
@@ -157,13 +157,13 @@ def _fit_plant(response: FrequencyResponse, quantity: str | None) -> PlantFit:
     shape, fitted = fits[0]
     weights = float(np.mean(response.weights**2))
     misfit = math.sqrt(fitted.cost / count / weights)
-    if misfit > MIN_FIT:
+    if misfit > _MIN_FIT:
         raise SimulationError(
             f"The response is not that of inertia, friction, resonances and a delay: on average {misfit:.2g}"
             " Np or rad are left"
         )
     others = [other.cost for each, other in fits if each.quantity != shape.quantity]
-    sure = all(cost > WORSE * fitted.cost + 1e-9 for cost in others)
+    sure = all(cost > _WORSE * fitted.cost + 1e-9 for cost in others)
     s = _rates(response)
     return PlantFit(
         shape.quantity,
@@ -195,7 +195,7 @@ def _is_inside(shape: _Shape, fitted: LeastSquares, response: FrequencyResponse)
     """
     lowest, highest = float(response.frequency[0]), float(response.frequency[-1])
     return all(
-        LOWEST_PAIR * lowest < pair.resonance < HIGHEST_PAIR * highest and pair.most_damping < 1.0
+        _LOWEST_PAIR * lowest < pair.resonance < _HIGHEST_PAIR * highest and pair.most_damping < 1.0
         for pair in _pairs(shape, fitted)
     )
 
@@ -213,7 +213,7 @@ def _fits(response: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, 
     yield rigid, first
     for at_load in (False, True):
         shape, best = rigid, first
-        for pairs in range(1, MAX_PAIRS + 1):
+        for pairs in range(1, _MAX_PAIRS + 1):
             # Four values for each parameter, or a pair would fit the noise.
             if count < 4 * (3 + 4 * pairs):
                 break
@@ -267,13 +267,13 @@ def _start(response: FrequencyResponse, s: Response, shape: _Shape, pairs: Seque
 def _starts(response: FrequencyResponse, s: Response, shape: _Shape, known: Series) -> list[Series]:
     """Return the starts with one pair more that fit best as they are."""
     tried = []
-    for rate in np.geomspace(s.imag[1], s.imag[-1] * 1.2, PLACES):
-        for ratio in RATIOS:
-            pairs = [*known[3:], math.log(rate), math.log(ratio), math.log(DAMPING), math.log(DAMPING)]
+    for rate in np.geomspace(s.imag[1], s.imag[-1] * 1.2, _PLACES):
+        for ratio in _RATIOS:
+            pairs = [*known[3:], math.log(rate), math.log(ratio), math.log(_DAMPING), math.log(_DAMPING)]
             start = _start(response, s, shape, pairs)
             rest = _residual(response, s, shape, start)
             tried.append((float(rest @ rest), start))
-    return [start for _, start in sorted(tried, key=lambda each: each[0])[:STARTS]]
+    return [start for _, start in sorted(tried, key=lambda each: each[0])[:_STARTS]]
 
 
 def _errors(response: FrequencyResponse, s: Response, shape: _Shape, fitted: LeastSquares) -> Series:
@@ -330,7 +330,7 @@ def _figures(shape: _Shape, parameters: Series, errors: Series) -> dict[str, tup
         rate, ratio, damping = (math.exp(each) for each in parameters[3:6])
         found["resonance"] = rate / (2.0 * math.pi), rate / (2.0 * math.pi) * float(errors[3])
         found["damping"] = damping, damping * float(errors[5])
-        if not shape.at_load and ratio > MIN_RATIO:
+        if not shape.at_load and ratio > _MIN_RATIO:
             found["inertia_ratio"] = ratio, ratio * float(errors[4])
     return found
 

@@ -29,7 +29,7 @@ SIGNALS = {
 """Signal of a trace -> names of its column in a record."""
 _TIME = "time|t|zeit"
 MIN_ROWS = 20
-MAX_READINGS = 100_000
+_MAX_READINGS = 100_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ class LiveRecorder:
             self._wait(time)
         if self.has_fired:
             passed = self.span is not None and time - self._fired >= self.span
-            self.is_done = passed or len(self._rows) >= MAX_READINGS
+            self.is_done = passed or len(self._rows) >= _MAX_READINGS
 
     def _wait(self, time: float) -> None:
         """Fire, or leave out what is longer ago than is kept ahead of the trigger."""

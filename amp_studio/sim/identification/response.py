@@ -26,16 +26,16 @@ from amp_studio.sim.series import Response, Series
 
 from .drive_record import read_number_table
 
-MIN_COHERENCE = 0.8
-MIN_POINTS = 12
+_MIN_COHERENCE = 0.8
+_MIN_POINTS = 12
 ORDER = 2
 """Of the polynomial in a window."""
-MIN_BESIDE, MAX_WINDOWS = 6, 500
+_MIN_BESIDE, _MAX_WINDOWS = 6, 500
 """Frequencies on each side of the middle of a window; windows in a record."""
-MIN_ROWS = 1000
-HIGHEST = 0.25
+_MIN_ROWS = 1000
+_HIGHEST = 0.25
 """Share of the sampling frequency up to which a record is used."""
-MIN_EXCITATION = 1e-3
+_MIN_EXCITATION = 1e-3
 """Share of the strongest torque in a window, by its square, from which it is excited."""
 _HEADS = {
     "frequency": r"(?:frequency|frequenz|freq|f)",
@@ -72,7 +72,7 @@ class FrequencyResponse:
     response: Response
     coherence: Series | None
     left_out: int = 0
-    """Frequencies with a coherence below MIN_COHERENCE."""
+    """Frequencies with a coherence below _MIN_COHERENCE."""
     period: float = 0.0
     """s between two rows of the record that it is from; 0 where it is not from one."""
     open_ends: tuple[Response, ...] = ()
@@ -86,7 +86,7 @@ class FrequencyResponse:
         if self.coherence is None:
             return np.ones(len(self.frequency))
         # A coherence of 1 would have an infinite weight.
-        sure = np.clip(self.coherence, MIN_COHERENCE, 0.9999)
+        sure = np.clip(self.coherence, _MIN_COHERENCE, 0.9999)
         return np.asarray(np.sqrt(sure / (1.0 - sure)))
 
 
@@ -205,15 +205,15 @@ def coherent(
     used: npt.NDArray[np.bool_] = np.isfinite(response) & (np.abs(response) > 0.0)
     low = 0
     if coherence is not None:
-        low = int((coherence < MIN_COHERENCE).sum())
+        low = int((coherence < _MIN_COHERENCE).sum())
         if 2 * low > len(coherence):
             raise SimulationError(
-                f"The coherence is below {MIN_COHERENCE:g} at {low} of {len(coherence)} frequencies: excite"
+                f"The coherence is below {_MIN_COHERENCE:g} at {low} of {len(coherence)} frequencies: excite"
                 " the axis more, average longer, or keep other motion away from it"
             )
-        used &= coherence >= MIN_COHERENCE
-    if int(used.sum()) < MIN_POINTS:
-        raise SimulationError(f"{int(used.sum())} frequencies are too few: at least {MIN_POINTS} are needed")
+        used &= coherence >= _MIN_COHERENCE
+    if int(used.sum()) < _MIN_POINTS:
+        raise SimulationError(f"{int(used.sum())} frequencies are too few: at least {_MIN_POINTS} are needed")
     return FrequencyResponse(
         frequency[used],
         response[used],
@@ -228,9 +228,9 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
 
     Raises SimulationError for a record that is too short or not coherent.
     """
-    if len(torque) < MIN_ROWS:
+    if len(torque) < _MIN_ROWS:
         raise SimulationError(
-            f"The record has too few rows for a response: {len(torque)} of at least {MIN_ROWS}"
+            f"The record has too few rows for a response: {len(torque)} of at least {_MIN_ROWS}"
         )
     moved, driven = np.diff(motion, differences), torque[: len(torque) - differences]
     given, answered = (np.fft.rfft(each - each.mean()) for each in (driven, moved))
@@ -278,11 +278,11 @@ def _ends(
 
 def _windows(frequency: Series, power: Series, period: float) -> tuple[npt.NDArray[np.int64], int]:
     """Return the middles of windows beside each other that are excited, and the frequencies on each side."""
-    width = 2 * MIN_BESIDE + 1
+    width = 2 * _MIN_BESIDE + 1
     smooth = np.convolve(power, np.full(width, 1.0 / width), "same")
-    excited = np.flatnonzero((smooth > MIN_EXCITATION * smooth.max()) & (frequency < HIGHEST / period))
+    excited = np.flatnonzero((smooth > _MIN_EXCITATION * smooth.max()) & (frequency < _HIGHEST / period))
     first, last = max(1, int(excited[0])), int(excited[-1])
-    beside = max(MIN_BESIDE, math.ceil((last - first) / (2 * MAX_WINDOWS)))
+    beside = max(_MIN_BESIDE, math.ceil((last - first) / (2 * _MAX_WINDOWS)))
     return np.arange(first + beside, last - beside + 1, 2 * beside + 1), beside
 
 

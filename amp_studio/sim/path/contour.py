@@ -19,15 +19,15 @@ from .geometry import places_of
 from .planner import ProgramPlan
 from .profiles import axis_profiles, path_points
 
-LONGEST = 120.0
+_LONGEST = 120.0
 """s of a program that the servo loops are run on."""
-ON_ARC = 1e-5
+_ON_ARC = 1e-5
 """u between an arc and the straight pieces that the distance is measured to."""
-MAX_NEAR_PIECES = 2000
+_MAX_NEAR_PIECES = 2000
 """Pieces of the path that are compared with a place."""
-NEAR = 1e-3
+_NEAR = 1e-3
 """u along the path by which arcs and the straight pieces of them may differ."""
-SETTLES = 6.0
+_SETTLES = 6.0
 """Time constants of the position loops after the end."""
 
 
@@ -65,12 +65,12 @@ def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourE
     """Run the axes over a plan, None for one that rests.
     Raises SimulationError where it is too long or an axis cannot be run.
     """
-    if plan.time > LONGEST:
-        raise SimulationError(f"The program takes {plan.time:.4g} s, more than {LONGEST:g} s")
+    if plan.time > _LONGEST:
+        raise SimulationError(f"The program takes {plan.time:.4g} s, more than {_LONGEST:g} s")
     profiles = axis_profiles(plan)
     moving = [(n, axis) for n, axis in enumerate(axes) if axis is not None]
     # Following errors decay with the gain of the position loop: after six time constants 0.25 % is left.
-    after = max(SETTLES / axis.position_rate for _, axis in moving)
+    after = max(_SETTLES / axis.position_rate for _, axis in moving)
     motions = {n: run_axis(axis, profiles[n], RunEnd(plan.time + after), thin=True) for n, axis in moving}
     alarms = [alarm for n, axis in moving for alarm in alarms_of(axis, motions[n])]
     # After the alarm of one axis the others have no common path any more.
@@ -89,7 +89,7 @@ def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourE
     found = np.searchsorted(plan.start, time, side="right") - 1
     # After the last row, while the axes settle, that row counts on.
     rows = np.clip(found, 0, max(len(plan.start) - 1, 0)).astype(np.int64)
-    error = distances(place, commanded, along_path(plan, commanded, rows), path_points(plan, ON_ARC)[0])
+    error = distances(place, commanded, _along_path(plan, commanded, rows), path_points(plan, _ON_ARC)[0])
     alarms.sort(key=lambda alarm: alarm.time_s)
     return ContourError(time, error, following, rows, tuple(alarms))
 
@@ -102,7 +102,7 @@ def _on(motion: Motion, column: str, time: PathRows) -> PathRows:
     return np.interp(time, own, motion.columns[column])
 
 
-def along_path(plan: ProgramPlan, commanded: PathRows, rows: Indices) -> PathRows:
+def _along_path(plan: ProgramPlan, commanded: PathRows, rows: Indices) -> PathRows:
     """Return how far along the path each commanded place is, u; ``rows`` are its rows of the plan."""
     geometry = plan.geometry
     before = np.concatenate([[0.0], np.cumsum(geometry.length)])[rows]
@@ -137,12 +137,12 @@ def distances(place: PathRows, commanded: PathRows, gone: PathRows, points: Path
     begins, ends = points[:-1], points[1:]
     way = _apart(begins, ends)
     along = np.concatenate([[0.0], np.cumsum(way)])
-    low = np.searchsorted(along, gone - 2.0 * apart - NEAR, side="right") - 1
-    high = np.searchsorted(along, gone + 2.0 * apart + NEAR, side="right") - 1
+    low = np.searchsorted(along, gone - 2.0 * apart - _NEAR, side="right") - 1
+    high = np.searchsorted(along, gone + 2.0 * apart + _NEAR, side="right") - 1
     low, high = np.clip(low, 0, len(way) - 1), np.clip(high, 0, len(way) - 1)
     least = np.full(len(place), math.inf)
     # All samples at once, one piece of each window a turn: windows are short, and samples are many.
-    for step in range(min(int((high - low).max(initial=0)) + 1, MAX_NEAR_PIECES)):
+    for step in range(min(int((high - low).max(initial=0)) + 1, _MAX_NEAR_PIECES)):
         at = low + step
         active = np.flatnonzero(at <= high)
         chosen = at[active]

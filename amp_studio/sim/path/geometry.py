@@ -13,7 +13,7 @@ from amp_studio.sim.path_rules import Geometry, Indices, PathRows, row_sums
 
 MAX_PIECES = 8_000_000
 """Rows of a program after its arcs have become straight pieces."""
-MAX_ARC_PIECES = 500_000
+_MAX_ARC_PIECES = 500_000
 """Of one arc: a circle of 100 km with the finest tolerance of a control has so many."""
 
 
@@ -103,10 +103,10 @@ def pieces_of(path: ToolPath, chord: float | None) -> Indices:
     # one piece.
     inside = np.maximum(chord * (2.0 * radius - chord), 0.0)
     wanted = np.abs(0.5 * path.sweep[arcs] * radius) / np.sqrt(np.where(inside > 0.0, inside, math.inf))
-    if wanted.max() > MAX_ARC_PIECES:
-        line = int(path.line[arcs[np.argmax(wanted > MAX_ARC_PIECES)]])
+    if wanted.max() > _MAX_ARC_PIECES:
+        line = int(path.line[arcs[np.argmax(wanted > _MAX_ARC_PIECES)]])
         raise SimulationError(
-            f"Line {line}: an arc of more than {MAX_ARC_PIECES} straight pieces is not planned"
+            f"Line {line}: an arc of more than {_MAX_ARC_PIECES} straight pieces is not planned"
         )
     pieces[arcs] = np.maximum(1, np.floor(wanted))
     return pieces

@@ -20,10 +20,10 @@ from .geometry import plane_columns
 from .planner import ProgramPlan
 from .profiles import path_points
 
-BEYOND = 1e-6
+_BEYOND = 1e-6
 """u: an axis on its limit is not beyond it."""
-QUARTER = 0.5 * math.pi
-ON_ARC = 1e-3
+_QUARTER = 0.5 * math.pi
+_ON_ARC = 1e-3
 """u between an arc and the straight pieces that are checked against zones."""
 
 
@@ -69,12 +69,12 @@ def _beyond(
     assert axis.travel is not None
     travel, path, (least, most) = axis.travel(), plan.path, extent
     for title, (low, high) in travel.limits.items():
-        beyond = (least < low - BEYOND) | (most > high + BEYOND)
+        beyond = (least < low - _BEYOND) | (most > high + _BEYOND)
         if beyond.any():
             row = int(np.argmax(beyond))
-            is_low = bool(least[row] < low - BEYOND)
+            is_low = bool(least[row] < low - _BEYOND)
             edge, place = (low, least[row]) if is_low else (high, most[row])
-            ends_inside = low - BEYOND <= plan.geometry.ends[row, n] <= high + BEYOND
+            ends_inside = low - _BEYOND <= plan.geometry.ends[row, n] <= high + _BEYOND
             is_refused = (travel.refuses or travel.reads_ahead) and not (travel.begins_arcs and ends_inside)
             begun = "the block is not begun" if is_refused else "the axis stops there"
             # A control that reads ahead refuses the block: it has another alarm than an axis that arrives
@@ -107,9 +107,9 @@ def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
     low, high = np.minimum(begun, begun + sweep), np.maximum(begun, begun + sweep)
     # An arc is farthest out at one of its ends or where it is parallel to an axis: at the multiples of 90°
     # that it passes, of which a whole turn has five at most.
-    quarters = np.ceil(low / QUARTER)[:, None] + np.arange(5)
-    turned = QUARTER * quarters
-    is_passed = quarters <= np.floor(high / QUARTER)[:, None]
+    quarters = np.ceil(low / _QUARTER)[:, None] + np.arange(5)
+    turned = _QUARTER * quarters
+    is_passed = quarters <= np.floor(high / _QUARTER)[:, None]
     for n, way in enumerate((np.cos(turned), np.sin(turned))):
         place = path.center[rows, n, None] + geometry.radius[arcs, None] * way
         at = arcs, columns[:, n]
@@ -167,7 +167,7 @@ class ZonesWatch:
         """Look at one more stretch."""
         if not self._zones or not plan.path.zero_known or not len(plan.start):
             return
-        points, rows = path_points(plan, ON_ARC)
+        points, rows = path_points(plan, _ON_ARC)
         for n, zone in enumerate(self._zones):
             if n not in self._met:
                 self._look_at(n, zone, plan, (points, rows))
@@ -251,7 +251,7 @@ def _entered(
         leaves = np.where(moves, np.maximum(one, two), np.where(inside, 1.0, -1.0))
         low_share, high_share = np.maximum(low_share, enters), np.minimum(high_share, leaves)
         # Limits of travel keep the axes in: broken by a piece that ends beyond, where it leaves the side.
-        beyond = (ends[:, n] < low - BEYOND) | (ends[:, n] > high + BEYOND)
+        beyond = (ends[:, n] < low - _BEYOND) | (ends[:, n] > high + _BEYOND)
         left = np.where(beyond, np.minimum(left, np.clip(leaves, 0.0, 1.0)), left)
     rows: PathRows = left if keeps_in else np.where(low_share < high_share, low_share, 2.0)
     return rows

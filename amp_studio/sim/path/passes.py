@@ -19,7 +19,7 @@ from amp_studio.sim.path_rules import PathRows, PathRules
 
 from .planner import CauseTable, StretchBounds, lowered
 
-MAX_SPEED_SQUARED = 1e300
+_MAX_SPEED_SQUARED = 1e300
 """u²/s² that no speed has; of an infinite one the root would be no number."""
 
 
@@ -94,7 +94,7 @@ def lowered_forward(rises: SpeedRises, rules: PathRules, reach: float) -> tuple[
         speeds = np.where(square < bound, np.sqrt(square), entry)
         way, slope = float(length[-1]), float(rises.acceleration[-1])
         more = 2.0 * slope * way if way or math.isfinite(slope) else math.inf
-        return speeds, math.sqrt(min(float(square[-1]) + more, MAX_SPEED_SQUARED))
+        return speeds, math.sqrt(min(float(square[-1]) + more, _MAX_SPEED_SQUARED))
     found, ways, faster = entry.tolist(), length.tolist(), rises.acceleration.tolist()
     for n in range(len(found)):
         found[n] = min(found[n], reach)
@@ -112,7 +112,7 @@ def _gains(slope: PathRows, length: PathRows, bound: PathRows) -> PathRows:
     return gains
 
 
-CHUNK = 512
+_CHUNK = 512
 """Rows whose sums are taken together: few enough to keep them exact, many enough to be fast."""
 
 
@@ -123,10 +123,10 @@ def lowest_sums(bound: PathRows, gain: PathRows) -> PathRows:
     Each is the lowest of all bounds before it plus the gains from there on, so that no loop is needed.
     """
     count = len(bound)
-    chunks = max(-(-count // CHUNK), 1)
-    most, step = np.full((2, chunks * CHUNK), [[math.inf], [0.0]])
+    chunks = max(-(-count // _CHUNK), 1)
+    most, step = np.full((2, chunks * _CHUNK), [[math.inf], [0.0]])
     most[:count], step[1:count] = bound, gain
-    most, step = most.reshape(chunks, CHUNK), step.reshape(chunks, CHUNK)
+    most, step = most.reshape(chunks, _CHUNK), step.reshape(chunks, _CHUNK)
     way = np.cumsum(step, axis=1)
     low = np.minimum.accumulate(most - way, axis=1)
     before, last = np.empty(chunks), math.inf

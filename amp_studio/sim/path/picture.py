@@ -44,21 +44,21 @@ MAX_POINTS = 4000
 """Of the rows that are drawn; of more, so many are chosen by chance."""
 SEEN = 1e-3
 """Share of the width of a path that is a step of its picture."""
-MAX_ARC_POINTS = 40_000
-WITHIN = 0.01
-"""u between an arc and what is drawn of it; more where arcs would have above ``MAX_ARC_POINTS`` points."""
-SORTS: tuple[ShapeSort, ...] = ("now", "outside", "output", "second", "error", "limit")
+_MAX_ARC_POINTS = 40_000
+_WITHIN = 0.01
+"""u between an arc and what is drawn of it; more where arcs would have above ``_MAX_ARC_POINTS`` points."""
+_SORTS: tuple[ShapeSort, ...] = ("now", "outside", "output", "second", "error", "limit")
 """Colours of the limits beside the programmed feed, the longest first."""
-THIN = 0.2
+_THIN = 0.2
 """Of the longer side of a path, what its picture is high or wide at least."""
-TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
+_TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
 """What a unit of X, Y, Z is in the tilted picture: right, up."""
 
 
-MAX_LETTERS, MAX_LETTERS_OF_ONE, APART = 14, 3, 0.06
+_MAX_LETTERS, _MAX_LETTERS_OF_ONE, _APART = 14, 3, 0.06
 """Letters on a path, those of one limit, and the share of the width of the path that they are apart at
 least."""
-STRIP = 600
+_STRIP = 600
 """Parts of the strip at the foot of the contour error."""
 NOT_GOOD = "!"
 """Chooses what is not good: alarms, and a contour error above one's own limit."""
@@ -66,9 +66,9 @@ NOT_GOOD = "!"
 
 PathColours = Literal["limit", "feed", "error"]
 """What colours a path: what limits the feed, its share of the programmed feed, the contour error."""
-FEED_PARTS = (0.98, 0.75, 0.5)
+_FEED_PARTS = (0.98, 0.75, 0.5)
 """Shares of the programmed feed that part its colours."""
-ERROR_PARTS = (0.25, 0.5, 0.75)
+_ERROR_PARTS = (0.25, 0.5, 0.75)
 """Shares of the largest contour error that part its colours."""
 
 
@@ -115,7 +115,7 @@ def path_picture(
         own = 4 * classes.of_rows + plan.is_rapid[drawn] + 2 * ~_are_chosen(run, letters, choice, drawn)
         kinds = own[np.searchsorted(drawn, rows)]
     flat, space = (
-        path_scene(run, classes, moment, length, (points, kinds), tilted=tilted) for tilted in (False, True)
+        _path_scene(run, classes, moment, length, (points, kinds), tilted=tilted) for tilted in (False, True)
     )
     return Picture("program", tuple(facts), tuple(panels), flat, space, bool(run.alarms), run.assumptions)
 
@@ -154,10 +154,10 @@ def _strip(run: ProgramRun, letters: Mapping[int, str]) -> Iterator[Polyline]:
     plan = run.plan.sample.plan
     if not len(plan.start):
         return
-    edges = np.linspace(0.0, run.plan.time, STRIP + 1)
+    edges = np.linspace(0.0, run.plan.time, _STRIP + 1)
     rows = np.clip(np.searchsorted(plan.start, 0.5 * (edges[1:] + edges[:-1]), "right") - 1, 0, None)
     kinds = np.where(plan.is_rapid[rows], -1, main_cause(plan, rows))
-    changes = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), STRIP]
+    changes = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), _STRIP]
     for first, last in pairwise(changes):
         letter = "R" if kinds[first] < 0 else letters.get(int(kinds[first]), "")
         ends = ((float(edges[first]), 0.0), (float(edges[last]), 0.0))
@@ -219,16 +219,16 @@ def _classes(
         time = np.maximum(plan.times[rows].sum(axis=1), 1e-12)
         shares = np.where(wanted > 0.0, plan.geometry.length[rows] / time / np.maximum(wanted, 1e-12), 1.0)
         # digitize needs rising edges, and shares fall from colour to colour: both with a minus.
-        by = np.digitize(-shares, [-part for part in FEED_PARTS])
-        texts = _parts(FEED_PARTS, "from {} % of the feed on", "below {} % of the feed")
+        by = np.digitize(-shares, [-part for part in _FEED_PARTS])
+        texts = _parts(_FEED_PARTS, "from {} % of the feed on", "below {} % of the feed")
     else:
         largest = np.zeros(max(len(plan.entry), 1))
         if run.contour is not None:
             np.maximum.at(largest, run.contour.row, np.abs(run.contour.error))
         whole = float(largest.max())
-        by = np.digitize(largest[rows] / (whole or 1.0), ERROR_PARTS)
+        by = np.digitize(largest[rows] / (whole or 1.0), _ERROR_PARTS)
         whole_text = path_error_text(whole, length_unit(file))
-        texts = _parts(ERROR_PARTS, f"below {{}} % of {whole_text}", f"from {{}} % of {whole_text} on")
+        texts = _parts(_ERROR_PARTS, f"below {{}} % of {whole_text}", f"from {{}} % of {whole_text} on")
     found = dict(enumerate("ABCD"))
     return _Classes(by.astype(np.int64), found, dict(zip(found.values(), texts, strict=True)))
 
@@ -250,10 +250,10 @@ def _within(plan: ProgramPlan, rows: Indices) -> float:
     arcs = rows[plan.geometry.is_arc[rows]]
     # A chord for each w of the arcs takes their angles times the root of r/(8 w).
     turns = np.abs(plan.path.sweep[plan.geometry.row[arcs]]) * np.sqrt(plan.geometry.radius[arcs])
-    return max(WITHIN, (float(turns.sum()) / MAX_ARC_POINTS) ** 2 / 8.0)
+    return max(_WITHIN, (float(turns.sum()) / _MAX_ARC_POINTS) ** 2 / 8.0)
 
 
-def path_scene(
+def _path_scene(
     run: ProgramRun,
     classes: _Classes,
     moment: PathMoment | None,
@@ -317,8 +317,8 @@ def _letters(pieces: Sequence[tuple[str, PathRows]], width: float) -> tuple[Text
         letter, points = pieces[n]
         own = placed.setdefault(letter, [])
         at = _middle(points)
-        is_near = any(float(np.hypot(*(at - each))) < APART * width for each in own)
-        if len(texts) >= MAX_LETTERS or len(own) >= MAX_LETTERS_OF_ONE or (own and is_near):
+        is_near = any(float(np.hypot(*(at - each))) < _APART * width for each in own)
+        if len(texts) >= _MAX_LETTERS or len(own) >= _MAX_LETTERS_OF_ONE or (own and is_near):
             continue
         own.append(at)
         texts.append(
@@ -382,7 +382,7 @@ def _flat(points: PathRows, *, tilted: bool) -> PathRows:
     wide = np.zeros((len(points), 3))
     count = min(points.shape[1], 3)
     wide[:, :count] = points[:, :count]
-    rows: PathRows = wide @ np.array(TILT) if tilted else wide[:, :2]
+    rows: PathRows = wide @ np.array(_TILT) if tilted else wide[:, :2]
     return rows
 
 
@@ -393,7 +393,7 @@ def _spans(flat: PathRows) -> list[tuple[float, float]]:
     most = float((highs - lows).max())
     found = []
     for low, high in zip(lows.tolist(), highs.tolist(), strict=True):
-        room = max(0.06 * (high - low), 0.5 * (THIN * most - (high - low))) or 1.0
+        room = max(0.06 * (high - low), 0.5 * (_THIN * most - (high - low))) or 1.0
         found.append((low - room, high + room))
     return found
 
@@ -404,7 +404,7 @@ def limit_sort(letter: str) -> ShapeSort:
         return "dim"
     place = ord(letter) - ord("B") if letter else -1
     # More limits than colours: the last colour is shared by those with the least time.
-    return SORTS[min(place, len(SORTS) - 1)] if place >= 0 else "ink"
+    return _SORTS[min(place, len(_SORTS) - 1)] if place >= 0 else "ink"
 
 
 def _thinned(flat: PathRows, kinds: Indices) -> Indices:

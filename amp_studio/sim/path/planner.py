@@ -31,9 +31,9 @@ from .geometry import geometry_of
 
 Bounds = tuple[PathRows, Causes]
 """Values, and by which cause."""
-AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
-DWELLS = PathLimit(0.0, None, "dwell")
-SAME = 1e-12
+_AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
+_DWELLS = PathLimit(0.0, None, "dwell")
+_SAME = 1e-12
 """Share of the way below which an axis does not move in a row: what is left of it is rounding."""
 
 
@@ -41,7 +41,7 @@ class CauseTable:
     """What limits, numbered."""
 
     def __init__(self) -> None:
-        self.limits: list[PathLimit] = [AS_PROGRAMMED, DWELLS]
+        self.limits: list[PathLimit] = [_AS_PROGRAMMED, _DWELLS]
         self._numbers: dict[tuple[object, str], int] = {
             (None, each.title): n for n, each in enumerate(self.limits)
         }
@@ -290,7 +290,7 @@ def _of_axes(
         # An axis with the share s of the way moves at s times the speed along the path.
         share = geometry.share[:, n]
         bound = np.full(len(share), math.inf)
-        np.divide(limit.value, share, out=bound, where=share > SAME)
+        np.divide(limit.value, share, out=bound, where=share > _SAME)
         lowered(value, by, bound, table.number(limit), where)
 
 

@@ -23,7 +23,7 @@ from .planner import ProgramPlan
 from .program import ProgramRun
 from .summing import LAST_BIT
 
-TRIED_SHARE, MAX_TRIES = 1.2, 5
+_TRIED_SHARE, _MAX_TRIES = 1.2, 5
 """By what a parameter that limits is multiplied to see what that brings, and how many are tried at most."""
 SMALL = 0.0005
 """Share of the time below which a limit is not listed."""
@@ -114,15 +114,15 @@ def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
 
 def limit_tries(file: ParameterFile, run: ProgramRun) -> Iterator[Mapping[Address, Value]]:
     """Yield another value of each parameter that limits a program, the longest first: its value times
-    `TRIED_SHARE`.
+    `_TRIED_SHARE`.
     """
     times = run.plan.time_by_cause
     # One more than tried: the programmed feed is among the limits and has no parameter.
-    for n in sorted(range(len(times)), key=lambda n: -times[n])[: MAX_TRIES + 1]:
+    for n in sorted(range(len(times)), key=lambda n: -times[n])[: _MAX_TRIES + 1]:
         limit = run.plan.causes[n]
         if limit.param is not None and times[n] > 0.0:
             with suppress(SimulationError):
-                yield {limit.param: scaled(file, limit.param, TRIED_SHARE)}
+                yield {limit.param: scaled(file, limit.param, _TRIED_SHARE)}
 
 
 def program_summary(

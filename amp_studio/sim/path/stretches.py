@@ -68,12 +68,12 @@ def _rows(each: Stretch, first: int, last: int) -> Stretch:
 
 
 def _joined(one: Stretch, other: Stretch) -> Stretch:
-    path = joined_paths(one.path, other.path)
+    path = _joined_paths(one.path, other.path)
     bounds = [np.concatenate(pair) for pair in zip(one.bounds, other.bounds, strict=True)]
     return Stretch(path, bounds, other.limits)
 
 
-def joined_paths(one: ToolPath, other: ToolPath) -> ToolPath:
+def _joined_paths(one: ToolPath, other: ToolPath) -> ToolPath:
     """Return the rows of two paths of which one goes on where the other ends."""
     *first, start = one.columns
     pairs = zip(first, other.columns[:-1], strict=True)
@@ -93,7 +93,7 @@ def _shaped(parts: Iterable[ToolPath], rules: PathRules) -> Iterator[Stretch]:
     part = next(coming, None)
     while part is not None:
         after = next(coming, None)
-        path = part if left is None else joined_paths(left, part)
+        path = part if left is None else _joined_paths(left, part)
         shaped = rules.shape(path, geometry_of(path, None), after is None)
         first = 0 if is_first else int(np.searchsorted(shaped.move, 1))
         if after is None:

@@ -20,7 +20,7 @@ SAMPLE = 10_000
 program repeats."""
 PARTS = 512
 """Of a stretch, whose least and greatest speed are drawn where there are several."""
-LISTED = 200_000
+_LISTED = 200_000
 """Lines of a program whose time and limit are kept: 25 bytes for each."""
 
 
@@ -181,7 +181,7 @@ class LineTimes:
     def _extend(self, last: int) -> None:
         """Make the lists of blocks long enough for a block."""
         # In leaps: a short program needs little, and a long one few copies.
-        more = min(max(last + 1, 2 * len(self._time)), LISTED + 1) - len(self._time)
+        more = min(max(last + 1, 2 * len(self._time)), _LISTED + 1) - len(self._time)
         if last < len(self._time):
             return
         self._time = np.pad(self._time, (0, more))
@@ -194,7 +194,7 @@ class LineTimes:
     def look(self, plan: ProgramPlan) -> None:
         """Take one more stretch."""
         lines = plan.lines
-        rows = np.flatnonzero(lines <= LISTED)
+        rows = np.flatnonzero(lines <= _LISTED)
         if not len(rows):
             return
         lines, times = lines[rows], row_sums(plan.times[rows]).astype(np.float32)

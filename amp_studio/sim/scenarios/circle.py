@@ -27,7 +27,7 @@ from .columns import alarms_of
 from .sweep import DIES
 
 SECOND = "move.second_axis"
-SETTINGS = {
+_SETTINGS = {
     "move.radius": "radius (mm or deg); default: 20 mm or deg, or 20000 counts",
     "move.feedrate": (
         "feedrate on the circle (mm/min or deg/min); default: 3000 mm/min or deg/min, at most half the rapid"
@@ -35,14 +35,14 @@ SETTINGS = {
     ),
     SECOND: "the other axis of the plane; default: the next one",
 }
-RADIUS, FEEDRATE = 20.0, 50.0
+_RADIUS, _FEEDRATE = 20.0, 50.0
 """u, u/s: 20 mm at 3 m/min."""
-MAX_TURNS = 200
+_MAX_TURNS = 200
 PATH = 720
 """Points of the predicted path."""
-RISE = math.pi
+_RISE = math.pi
 """rad: the part of a turn in which the feedrate rises."""
-AWAY = (-6.0, 40.0)
+_AWAY = (-6.0, 40.0)
 """deg before and after a reversal that belong to its spike."""
 
 
@@ -62,20 +62,20 @@ class _Circle:
         """Return the command of one axis; it begins at ``phase`` rad of the sine, at position 0."""
         centre = -self.radius * math.sin(phase)
         faster = [0.0, self.rise, centre, self.radius, 0.0, self.rate / self.rise, SINE, phase]
-        even = [self.rise, math.inf, centre, self.radius, self.rate, 0.0, SINE, phase + RISE]
+        even = [self.rise, math.inf, centre, self.radius, self.rate, 0.0, SINE, phase + _RISE]
         return faster + even
 
     @property
     def end(self) -> float:
         """When the measured turn is over, with a quarter of a turn more for the following error."""
-        return self.rise + (2.0 * math.pi * (self.turns + 1.5) - RISE) / self.rate
+        return self.rise + (2.0 * math.pi * (self.turns + 1.5) - _RISE) / self.rate
 
 
-def run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None = None) -> Trace:
+def _run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None = None) -> Trace:
     """Run two axes on a circle; ``second`` None takes the same axis twice.
     Raises SimulationError for impossible settings.
     """
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     other = second or axis
     if other.unit != axis.unit:
         raise SimulationError(
@@ -116,10 +116,10 @@ def _circle(
 ) -> _Circle:
     """Return the circle to run, at the feedrate that the control allows; raises SimulationError."""
     size = 1000.0 if axis.unit == "counts" else 1.0  # a count is taken as a thousandth
-    radius = above_zero(settings, "move.radius") or RADIUS * size
+    radius = above_zero(settings, "move.radius") or _RADIUS * size
     given = above_zero(settings, "move.feedrate")
     known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]
-    feedrate = given / 60.0 if given else min([FEEDRATE * size, *known])
+    feedrate = given / 60.0 if given else min([_FEEDRATE * size, *known])
     limit = _limit(axis, other, radius)
     programmed, feedrate = feedrate, feedrate if limit is None else min(feedrate, limit)
     rate = feedrate / radius
@@ -127,14 +127,14 @@ def _circle(
     dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
     # Whole turns, so that the measured one begins at the same place whatever the start left.
     turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
-    if turns > MAX_TURNS:
+    if turns > _MAX_TURNS:
         raise SimulationError(
             f"A circle of {radius:.4g} {axis.unit} at {feedrate * 60.0:.4g} {axis.unit}/min needs more than"
-            f" {MAX_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
+            f" {_MAX_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
     # The rate rises evenly from 0, so that half a turn takes twice the time it has at the full rate.
-    return _Circle(radius, programmed, rate, 2.0 * RISE / rate, turns)
+    return _Circle(radius, programmed, rate, 2.0 * _RISE / rate, turns)
 
 
 def _limit(axis: AxisLaw, other: AxisLaw, radius: float) -> float | None:
@@ -224,8 +224,8 @@ def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | Non
 
     1 / r² of an ellipse has harmonics 0 and 2 of the angle alone, however unequal its axes are.
     """
-    after = (angle - AWAY[0]) % 90.0
-    near = after < AWAY[1] - AWAY[0]
+    after = (angle - _AWAY[0]) % 90.0
+    near = after < _AWAY[1] - _AWAY[0]
     turn = np.radians(angle)
     # Fitted to the parts of the circle away from reversals only: the spikes must not bend their own
     # base line.
@@ -281,8 +281,8 @@ def _assumptions(axis: AxisLaw, other: AxisLaw, second: AxisLaw | None) -> tuple
 SCENARIO = Scenario(
     "circle",
     "Two axes on a circle: radius error and reversal spikes",
-    SETTINGS,
-    run_circle,
+    _SETTINGS,
+    _run_circle,
     second=True,
     checked=("radius_error", "circularity"),
     once=True,

@@ -24,25 +24,25 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 from .step import COAST, RUN_OUT
 
-SETTINGS = {
+_SETTINGS = {
     "move.fault": f"{' or '.join(FAULTS)}; default: drive",
     "move.fault_time": "when the fault comes (s); default: in the middle of the command",
     **{name: MOVE_SETTINGS[name] for name in ("move.distance", "move.feedrate", "move.mode")},
 }
-INFORMED = "The control is informed of the fault and takes the output away ({0})."
-UNSEEN = (
+_INFORMED = "The control is informed of the fault and takes the output away ({0})."
+_UNSEEN = (
     "ASSUMED: how a tripped drive informs this control is in no manual here. The drive has no torque, and the"
     " control goes on until its following error shows it."
 )
-STILL_MOVES = (
+_STILL_MOVES = (
     f"The axis still moves {COAST:g} s after the fault: without friction and a brake (model.*) it runs on."
 )
-NO_ALARM = "The drive has tripped, and no limit of the following error shows it: the command ends as usual"
+_NO_ALARM = "The drive has tripped, and no limit of the following error shows it: the command ends as usual"
 
 
-def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one move with a fault in it; raises SimulationError for one that no page prints."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     kind = str(settings.get("move.fault", "drive"))
     axis.refuse_unknown_fault(kind)
     moved = move_of(axis, settings)
@@ -70,10 +70,10 @@ def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         result=_figures(axis, motion, moved, moment),
         alarms=_alarms(axis, motion, kind),
         assumptions=(
-            INFORMED.format(axis.faults[kind].message) if kind in axis.faults else UNSEEN,
+            _INFORMED.format(axis.faults[kind].message) if kind in axis.faults else _UNSEEN,
             *assumptions(axis),
             RUN_OUT,
-            *([STILL_MOVES] if runs_on else []),
+            *([_STILL_MOVES] if runs_on else []),
         ),
         limits={name: (level, axis.unit) for name, level in axis.limits.items() if math.isfinite(level)},
         move={"move.distance": moved.distance, "move.feedrate": moved.feedrate * 60.0},
@@ -85,7 +85,7 @@ def _alarms(axis: AxisLaw, motion: Motion, kind: str) -> tuple[Alarm, ...]:
     if kind in axis.faults:
         words, at = axis.faults[kind], float(motion.columns["time_s"][motion.alarm_row or 0])
         return (Alarm(words.code, at, words.message),)
-    return alarms_of(axis, motion) or (Alarm("NO ALARM", float(motion.columns["time_s"][-1]), NO_ALARM),)
+    return alarms_of(axis, motion) or (Alarm("NO ALARM", float(motion.columns["time_s"][-1]), _NO_ALARM),)
 
 
 def _figures(axis: AxisLaw, motion: Motion, moved: Move, moment: float) -> dict[str, Figure]:
@@ -106,7 +106,7 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, moment: float) -> dict[
 SCENARIO = Scenario(
     "fault",
     "A drive that trips, or feedback that is lost, in a move: the control's words, and how far the axis runs",
-    SETTINGS,
-    run_fault,
+    _SETTINGS,
+    _run_fault,
     gains=False,
 )

@@ -10,13 +10,13 @@ from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.series import Series
 from amp_studio.sim.tuning.linear import Margins, axis_model
 
-STEADY_SPEED = 1e-3
+_STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""
-RESIDUE = 1e-6
+_RESIDUE = 1e-6
 """Share of the error that the loop alone would have: what is less is left over by the arithmetic."""
-NOISE_COUNTS = 3.0
+_NOISE_COUNTS = 3.0
 """Counts between which a measured figure may go to and fro and is still steady."""
-RIPPLE, DRIFT = 0.01, 0.005
+_RIPPLE, _DRIFT = 0.01, 0.005
 """Shares of a steady figure that it may go to and fro, and that it would still change if it were waited
 for."""
 
@@ -32,19 +32,19 @@ def steady(series: Series, noise: float) -> float | None:
         return None
     first, second, last = (series[len(series) - n * tenth :][:tenth] for n in (3, 2, 1))
     mean = float(last.mean())
-    allowed = max(noise, RIPPLE * abs(mean))
+    allowed = max(noise, _RIPPLE * abs(mean))
     if float(last.max() - last.min()) > allowed:
         return None
     before, after = float(second.mean() - first.mean()), mean - float(second.mean())
     ratio = after / before if before else 0.0
     # What is still to come is after (r + r² + …); a change that grows never ends.
     to_go = abs(after) * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else np.inf if ratio >= 1.0 else 1.0)
-    if abs(after) > noise / NOISE_COUNTS and to_go > max(noise, DRIFT * abs(mean)):
+    if abs(after) > noise / _NOISE_COUNTS and to_go > max(noise, _DRIFT * abs(mean)):
         return None
     return mean
 
 
-def at_servo_samples(motion: Motion, column: str) -> Series:
+def _at_servo_samples(motion: Motion, column: str) -> Series:
     """Return a column at the servo samples in which the control moved the axis."""
     return motion.columns[column][motion.driven][:: motion.rows_per_servo_period]
 
@@ -55,9 +55,9 @@ def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: s
     What goes to and fro around 0 has a mean of 0. None if the stretch is shorter than STEADY_LAGS time
     constants or the figure is not steady in it.
     """
-    series = at_servo_samples(motion, column)
-    speed = np.abs(at_servo_samples(motion, "command_velocity"))
-    constant = np.abs(speed / feedrate - 1.0) <= STEADY_SPEED
+    series = _at_servo_samples(motion, column)
+    speed = np.abs(_at_servo_samples(motion, "command_velocity"))
+    constant = np.abs(speed / feedrate - 1.0) <= _STEADY_SPEED
     edges = np.flatnonzero(np.diff(np.concatenate(([0], constant.astype(np.int8), [0]))))
     starts, ends = edges[::2], edges[1::2]
     if starts.size == 0:
@@ -66,11 +66,11 @@ def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: s
     start, end = int(starts[longest]), int(ends[longest])
     if (end - start) * axis.servo_period < STEADY_LAGS / axis.position_rate:
         return None
-    noise = max(NOISE_COUNTS * axis.machine.position_count, 1e-9 * feedrate)
+    noise = max(_NOISE_COUNTS * axis.machine.position_count, 1e-9 * feedrate)
     if steady(np.abs(series[start:end]), noise) is None:
         return None
     mean = abs(float(series[end - (end - start) // 10 : end].mean()))
-    return mean if mean > RESIDUE * feedrate / axis.position_rate else 0.0
+    return mean if mean > _RESIDUE * feedrate / axis.position_rate else 0.0
 
 
 def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None, float | None]:
@@ -83,10 +83,12 @@ def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None,
     """
     if motion.stop != 0 or motion.command_end is None:
         return None, None
-    time = at_servo_samples(motion, "time_s")
+    time = _at_servo_samples(motion, "time_s")
     # Where the control takes the axis to be: what it adds to the command for itself (REFERENCE_LAG) is no
     # error.
-    off = target - at_servo_samples(motion, "command_position") + at_servo_samples(motion, "following_error")
+    off = (
+        target - _at_servo_samples(motion, "command_position") + _at_servo_samples(motion, "following_error")
+    )
     band = max(axis.inposition_band, axis.machine.position_count, 1e-9 * abs(target))
     outside = np.flatnonzero(np.abs(off) > band * (1.0 + 1e-9))
     first = int(outside[-1]) + 1 if outside.size else 0
@@ -105,7 +107,7 @@ def grows(series: Series, count: float) -> bool:
     if half < 4:
         return False
     swings = [float(np.ptp(part)) for part in (series[:half], series[half:])]
-    return swings[1] > max(swings[0], NOISE_COUNTS * count) * (1.0 + 1e-6) and swings[1] > 1e-9
+    return swings[1] > max(swings[0], _NOISE_COUNTS * count) * (1.0 + 1e-6) and swings[1] > 1e-9
 
 
 def stability(axis: AxisLaw) -> tuple[bool, Margins | None]:

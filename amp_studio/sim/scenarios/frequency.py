@@ -26,7 +26,7 @@ from amp_studio.sim.tuning.linear import LinearModel, Margins, axis_model
 from .columns import alarms_of
 from .sweep import sweep, tones_of
 
-SETTINGS = {
+_SETTINGS = {
     "move.lowest": "lowest frequency of the sweep (Hz); default: a tenth of the bandwidth",
     "move.highest": "highest frequency of the sweep (Hz); default: past bandwidth and margins",
     "move.amplitude": "amplitude of the sine (mm or deg); default: as small as counts and friction allow",
@@ -36,7 +36,7 @@ SETTINGS = {
 POINTS, MAX_POINTS = 24, 400
 CURVE = 400
 """Points of the drawn linear model."""
-MIN_PEAK = 0.01
+_MIN_PEAK = 0.01
 """dB: below it an axis has no resonance peak; one that only falls has its largest answer, 0 dB, at rest."""
 
 
@@ -78,7 +78,7 @@ _MIN_DIFFERENCE = 0.02
 
 def run_frequency(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Sweep an axis; raises SimulationError for impossible settings."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     models = axis_model(axis)
     model, cut = models.whole, models.cut
     if model.drifts():
@@ -263,7 +263,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
         "Ms": (loop.cut.sensitivity()[0] if loop.stable else None, ""),
         "Ms_frequency": (loop.cut.sensitivity()[1] if loop.stable else None, "Hz"),
-        "resonance_peak": (peak if loop.stable and peak > MIN_PEAK else None, "dB"),
+        "resonance_peak": (peak if loop.stable and peak > _MIN_PEAK else None, "dB"),
         "damping_ratio": (loop.damping, ""),
         "least_damping_ratio": (loop.model.least_damping(), ""),
         "least_stable_inertia": (inertias[0] if inertias else None, ""),
@@ -357,7 +357,7 @@ def _swept_gain(opened: Response) -> float | None:
 SCENARIO = Scenario(
     "frequency",
     "Swept sine beside the linear model: bandwidth and margins",
-    SETTINGS,
+    _SETTINGS,
     run_frequency,
     checked=("bandwidth", "phase_margin", "gain_margin"),
 )

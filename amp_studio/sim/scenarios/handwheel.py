@@ -17,25 +17,25 @@ from amp_studio.sim.trace import Figure, Trace
 
 from .step import SCENARIO as STEP
 
-SETTINGS = {
+_SETTINGS = {
     "move.turns": "turns of the wheel, with their sign; default: 1",
     "move.rate": "turns of the wheel in a second; default: 1",
     "move.marks": "marks of the wheel in a turn; default: that of the file, or 100, assumed",
     "move.wheel": "which wheel, by its number; default: the first",
 }
-MARKS = 100.0
+_MARKS = 100.0
 MAX_TURNS, FASTEST = 1000.0, 100.0
-KEPT = (
+_KEPT = (
     "ASSUMED: marks that come faster than the axis may go are kept, so that it goes on after the wheel"
     " has stopped; no page prints whether they are lost."
 )
-EVEN = "ASSUMED: the wheel is turned evenly, from its first mark to its last one."
-HUNDRED = "ASSUMED: a wheel of 100 marks; move.marks gives another."
+_EVEN = "ASSUMED: the wheel is turned evenly, from its first mark to its last one."
+_HUNDRED = "ASSUMED: a wheel of 100 marks; move.marks gives another."
 
 
-def run_handwheel(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
+def _run_handwheel(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Turn the wheel; raises SimulationError where the axis has none."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     axis = machine.axis(machine.one_chosen("handwheel"))
     if axis.handwheel is None:
         raise SimulationError("No page of this family prints how a handwheel moves an axis")
@@ -48,7 +48,7 @@ def run_handwheel(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         raise SimulationError(
             f"move.turns is {turns:g}; it must not be 0, and {MAX_TURNS:g} at most", "move.turns"
         )
-    counted = marks or wheel.marks or MARKS
+    counted = marks or wheel.marks or _MARKS
     distance = turns * counted * wheel.step
     by_wheel = rate * counted * abs(wheel.step)
     feedrate = min(by_wheel, wheel.fastest)
@@ -56,10 +56,10 @@ def run_handwheel(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     trace = STEP.run(
         replace(axis, ramps={ramp.kind: ramp}), {"move.distance": distance, "move.feedrate": feedrate * 60.0}
     )
-    notes = (*wheel.notes, EVEN, *(() if marks or wheel.marks else (HUNDRED,)))
+    notes = (*wheel.notes, _EVEN, *(() if marks or wheel.marks else (_HUNDRED,)))
     if by_wheel > wheel.fastest:
         fastest = value_text(wheel.fastest * 60.0, f"{axis.unit}/min")
-        notes = (*notes, f"The wheel asks for more than {fastest} ({page_text(wheel.page)}).", KEPT)
+        notes = (*notes, f"The wheel asks for more than {fastest} ({page_text(wheel.page)}).", _KEPT)
     return replace(
         trace,
         scenario="handwheel",
@@ -93,8 +93,8 @@ def _seen(trace: Trace) -> dict[str, Figure]:
 SCENARIO = Scenario(
     "handwheel",
     "An axis driven by turns of a handwheel",
-    SETTINGS,
-    run_handwheel,
+    _SETTINGS,
+    _run_handwheel,
     gains=False,
     of_machine=True,
     checked=("step", "feedrate", "behind", "runs_on"),

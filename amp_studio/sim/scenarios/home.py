@@ -24,7 +24,7 @@ from amp_studio.sim.trace import Alarm, Figure, HomingCourse, HomingStage, Recom
 
 from .columns import alarms_of, column_units, per_minute
 
-SETTINGS = {
+_SETTINGS = {
     "move.direction": (
         "plus or minus, where no printed parameter gives the direction; default: that of the file, or plus"
     ),
@@ -48,23 +48,23 @@ SETTINGS = {
         "by how much the switch comes on at another place each time, at most (mm or deg); default: 0"
     ),
 }
-OF_SWITCH = ("move.switch", "move.switch_length", "move.dog")
-SETTLE = 8.0
+_OF_SWITCH = ("move.switch", "move.switch_length", "move.dog")
+_SETTLE = 8.0
 """Time constants of the position loop after the last order, as for a tap."""
-QUARTER = 0.25
+_QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another
 marker."""
-MAX_TURNS = 100.0
+_MAX_TURNS = 100.0
 """Turns from the switch to the marker that is given."""
-MAX_HOMINGS = 100
-ON_SCALE = 5.3
+_MAX_HOMINGS = 100
+_ON_SCALE = 5.3
 """Periods of a coded scale from its zero to the start."""
-HALVINGS = 7
+_HALVINGS = 7
 """Of the speed at which an axis passes its switch: 1 % of it is near enough."""
-OF_THE_SWITCH = 0.8
+_OF_THE_SWITCH = 0.8
 """Share of the switch on which the axis stops at the speed that is recommended."""
-GOLDEN = 0.6180339887498949
+_GOLDEN = 0.6180339887498949
 """Shares of the scatter come evenly: the multiples of the golden ratio without their whole part (van der
 Corput's idea)."""
 SEEN = (
@@ -73,9 +73,9 @@ SEEN = (
 )
 
 
-def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Home an axis, as often as asked; raises SimulationError for impossible settings."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     if axis.homing is None:
         raise SimulationError(f"Axis {axis.axis} is not homed by a sequence that is printed")
     homing = axis.homing()
@@ -151,12 +151,12 @@ def _slower(
         return
     slow, fast = 0.0, abs(homing.approach)
     # Halved again and again: the overrun grows with the speed, but by no formula that every ramp has.
-    for _ in range(HALVINGS):
+    for _ in range(_HALVINGS):
         middle = 0.5 * (slow + fast)
         tried = _homed(axis, replace(homing, approach=math.copysign(middle, homing.approach)), ramp, around)[
             1
         ]
-        stops = tried.overrun is not None and tried.overrun <= OF_THE_SWITCH * around.length
+        stops = tried.overrun is not None and tried.overrun <= _OF_THE_SWITCH * around.length
         slow, fast = (middle, fast) if stops else (slow, middle)
     if slow > 0.0:
         long = value_text(around.length, axis.unit)
@@ -166,7 +166,7 @@ def _slower(
 
 def _refuse_switch(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> None:
     """Raise SimulationError for a setting of a switch that the sequence does not go to."""
-    for name in OF_SWITCH:
+    for name in _OF_SWITCH:
         if settings.get(name) is not None and not homing.approach:
             raise SimulationError(
                 f"Axis {axis.axis} is homed without a switch ({page_text(homing.page)}): leave out {name}",
@@ -185,7 +185,7 @@ def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Surroundings) -> t
     if (
         not moving.is_over
     ):  # in position is not yet at rest: a wide window ends a homing counts before its place
-        moving.advance(SETTLE / axis.position_rate)
+        moving.advance(_SETTLE / axis.position_rate)
     return moving, found
 
 
@@ -227,7 +227,7 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSetting
         if leaves_forward:
             edge += sign * around.length
     off = math.copysign(1.0, homing.leave)
-    return replace(around, marker=edge + off * (QUARTER * homing.turn if given is None else given))
+    return replace(around, marker=edge + off * (_QUARTER * homing.turn if given is None else given))
 
 
 def _marker(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> tuple[float | None, bool]:
@@ -235,7 +235,7 @@ def _marker(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> tuple[
     if settings.get("move.marker") == "none":
         return None, False
     given = number(settings, "move.marker")
-    if given is not None and abs(given) > MAX_TURNS * homing.turn:
+    if given is not None and abs(given) > _MAX_TURNS * homing.turn:
         raise SimulationError(
             f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is"
             f" {value_text(homing.turn, axis.unit)}",
@@ -250,7 +250,7 @@ def _on_scale(homing: Homing, settings: ScenarioSettings) -> float:
         if given is not None:
             raise SimulationError("This axis has no distance-coded scale: leave out move.scale", "move.scale")
         return 0.0
-    return ON_SCALE * homing.scale.small if given is None else given
+    return _ON_SCALE * homing.scale.small if given is None else given
 
 
 def _scattered(around: Surroundings, homing: Homing, settings: ScenarioSettings) -> list[Surroundings]:
@@ -258,16 +258,16 @@ def _scattered(around: Surroundings, homing: Homing, settings: ScenarioSettings)
     scatter.
     """
     times, scatter = number(settings, "move.homings") or 1.0, number(settings, "move.scatter") or 0.0
-    if not (times == int(times) and 1 <= times <= MAX_HOMINGS):
+    if not (times == int(times) and 1 <= times <= _MAX_HOMINGS):
         raise SimulationError(
-            f"move.homings is {times:g}; it must be a whole number from 1 to {MAX_HOMINGS}", "move.homings"
+            f"move.homings is {times:g}; it must be a whole number from 1 to {_MAX_HOMINGS}", "move.homings"
         )
     if not (0.0 <= scatter < math.inf) or (scatter and not homing.approach):
         raise SimulationError(
             "move.scatter must not be negative, and is of an axis with a home switch", "move.scatter"
         )
     # Spread evenly however many there are, and the same each time, which random ones are not.
-    shares = [(n * GOLDEN) % 1.0 - 0.5 for n in range(1, int(times))]
+    shares = [(n * _GOLDEN) % 1.0 - 0.5 for n in range(1, int(times))]
     return [replace(around, switch=around.switch + scatter * share) for share in shares]
 
 
@@ -356,8 +356,8 @@ def _figures(
 SCENARIO = Scenario(
     "home",
     "Homing: switch, marker and home position",
-    SETTINGS,
-    run_home,
+    _SETTINGS,
+    _run_home,
     gains=False,
     part="homing",
     headline="home_grid",

@@ -15,19 +15,19 @@ from amp_studio.sim.trace import Trace
 
 from .step import SCENARIO as STEP
 
-SETTINGS = {
+_SETTINGS = {
     "move.speed": "position of the speed switch; default: the lowest speed",
     "move.increment": "increment of an incremental jog; default: a continuous jog",
     "move.hold": "how long the button of a continuous jog is pressed (s); default: 1",
     "move.direction": "plus or minus; default: plus",
 }
-PRESS_TIME = 1.0
+_PRESS_TIME = 1.0
 """s"""
 
 
-def run_jog(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_jog(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one jog; raises SimulationError for a speed that is not set or an unknown one."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     if axis.jogging is None:
         raise SimulationError(f"No jog of axis {axis.axis} is printed")
     jogging = axis.jogging()
@@ -49,7 +49,7 @@ def run_jog(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         distance = _chosen("increment", increment, jogging.increments)
     else:
         # A ramp up during the hold and one down after it are as long as the hold at full speed.
-        distance = speed * (above_zero(settings, "move.hold") or PRESS_TIME)
+        distance = speed * (above_zero(settings, "move.hold") or _PRESS_TIME)
         if ramp.acceleration:
             distance = _pressed(
                 speed, distance / speed, ramp.acceleration, ramp.deceleration or ramp.acceleration
@@ -90,8 +90,8 @@ def _chosen(what: str, name: ParameterValue, known: Mapping[str, float]) -> floa
 SCENARIO = Scenario(
     "jog",
     "A continuous or incremental jog",
-    SETTINGS,
-    run_jog,
+    _SETTINGS,
+    _run_jog,
     part="travel",
     checked=("feedrate", "stop_position", "time"),
 )

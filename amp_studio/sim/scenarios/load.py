@@ -24,7 +24,7 @@ from amp_studio.sim.tuning.loops import Loops
 from .columns import alarms_of, column_units, per_minute
 from .figures import stability
 
-SETTINGS = {
+_SETTINGS = {
     "move.load": "torque on the load (torque); default: a tenth of the range of the output",
     "move.duration": "time with the torque, and as long without it (s); default: as the loop needs",
     "move.force_per_torque": (
@@ -33,15 +33,15 @@ SETTINGS = {
 }
 SHARE = 0.1
 """Share of the range of the output that the torque has when none is given."""
-RATED = 100.0
+_RATED = 100.0
 """%: the range of a drive with a velocity loop, and of an output in %."""
-SHORTEST, LONGEST, LAGS = 0.1, 3.0, 12.0
+_SHORTEST, _LONGEST, _LAGS = 0.1, 3.0, 12.0
 """s, s, and time constants of the slowest pole: the time with the torque."""
-LONGEST_PUSH = 60.0
+_LONGEST_PUSH = 60.0
 """s: the most that can be asked for."""
 BACK = 0.05
 """Share of the largest way within which the load is back, a count at least."""
-PHASES = (0.0, 1.0, 0.0, -1.0, 0.0)
+_PHASES = (0.0, 1.0, 0.0, -1.0, 0.0)
 """Shares of the torque, one after the other; what the axis does in the first one is what its weight does."""
 
 
@@ -83,12 +83,12 @@ def _end(way: Series) -> float:
 
 def run_load(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Push the load of an axis; raises SimulationError for impossible settings."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     load = above_zero(settings, "move.load") or SHARE * _range(axis)
     loops = Loops(axis)
-    lasts = above_zero(settings, "move.duration", LONGEST_PUSH) or _time(loops)
+    lasts = above_zero(settings, "move.duration", _LONGEST_PUSH) or _time(loops)
     each = max(2, round(lasts / axis.servo_period))
-    push = np.repeat(np.array(PHASES) * load, each).tolist()
+    push = np.repeat(np.array(_PHASES) * load, each).tolist()
     standing = [0.0, math.inf, 0.0, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0]
     pushed = replace(axis, push=push, after=None)
     motion = run_axis(pushed, standing, RunEnd(len(push) * axis.servo_period))
@@ -117,9 +117,9 @@ NOTE = (
 def _range(axis: AxisLaw) -> float:
     """Return the range of the torque."""
     if torque_unit(axis) == "%":
-        return RATED
+        return _RATED
     limit = axis.machine.output_limit
-    return limit if math.isfinite(limit) else RATED
+    return limit if math.isfinite(limit) else _RATED
 
 
 def _time(loops: Loops) -> float:
@@ -127,15 +127,15 @@ def _time(loops: Loops) -> float:
     sizes = np.abs(loops.models.whole.poles())
     moving = sizes[(sizes > 1e-9) & (sizes < 1.0 - 1e-9)]
     if not moving.size:
-        return SHORTEST
-    needed = -LAGS * loops.models.whole.period / math.log(float(moving.max()))
-    return min(max(needed, SHORTEST), LONGEST)
+        return _SHORTEST
+    needed = -_LAGS * loops.models.whole.period / math.log(float(moving.max()))
+    return min(max(needed, _SHORTEST), _LONGEST)
 
 
 def _loaded(motion: Motion, lasts: float) -> Loaded:
     time, position = motion.columns["time_s"], motion.columns["position"]
     # A row on the border belongs to the next phase, whatever rounding made of its time.
-    parts = [(time >= n * lasts - 1e-9) & (time < (n + 1) * lasts - 1e-9) for n in range(len(PHASES))]
+    parts = [(time >= n * lasts - 1e-9) & (time < (n + 1) * lasts - 1e-9) for n in range(len(_PHASES))]
     rest = _end(position[parts[0]])
     return Loaded(
         [position[part] - rest for part in parts], [time[part] - n * lasts for n, part in enumerate(parts)]
@@ -170,7 +170,7 @@ def _figures(
 SCENARIO = Scenario(
     "load",
     "A torque comes at once on the load of a standing axis: stiffness, sag, recovery",
-    SETTINGS,
+    _SETTINGS,
     run_load,
     headline="sag",
     checked=("stiffness", "sag", "recovery_time"),

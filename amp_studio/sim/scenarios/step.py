@@ -21,9 +21,9 @@ from .figures import settled, stability, steady_at_feedrate
 
 COAST = 2.0
 """s in which an axis is watched after an alarm."""
-RATED = "move.rated_torque"
-SETTINGS = MOVE_SETTINGS | {
-    RATED: "torque that the motor gives all the time (torque); default: 100 % where torque is in %"
+_RATED = "move.rated_torque"
+_SETTINGS = MOVE_SETTINGS | {
+    _RATED: "torque that the motor gives all the time (torque); default: 100 % where torque is in %"
 }
 RUN_OUT = (
     "ASSUMED: after an alarm the drive gets 0. A torque drive lets the axis run out against its friction and"
@@ -34,8 +34,8 @@ RUN_OUT = (
 
 def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one move; raises SimulationError if it is not possible."""
-    refuse_unknown(settings, SETTINGS)
-    moved, rated = move_of(axis, settings), above_zero(settings, RATED)
+    refuse_unknown(settings, _SETTINGS)
+    moved, rated = move_of(axis, settings), above_zero(settings, _RATED)
     emergency = above_zero(settings, "move.emergency_time")
     motion = run_axis(
         axis,
@@ -130,7 +130,7 @@ def _duty(torque: Series, rated: float | None) -> float | None:
 SCENARIO = Scenario(
     "step",
     "One commanded move of one axis, from rest to rest",
-    SETTINGS,
+    _SETTINGS,
     run_step,
     headline="peak_following_error",
     checked=("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),

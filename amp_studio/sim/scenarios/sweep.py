@@ -21,19 +21,19 @@ from amp_studio.sim.tuning.linear import LinearModel
 
 CYCLES = 3
 """Whole cycles that a frequency is measured over, at least."""
-SAMPLES = 60
+_SAMPLES = 60
 """Servo samples that a frequency is measured over, at least."""
 DIES = 7.0
 """Time constants of the slowest pole before a frequency is measured: what is left is 0.1 %."""
-LONGEST = 2000.0
+_LONGEST = 2000.0
 """Most simulated seconds."""
 SHARE = 0.25
 """Share of feedrate, torque and limits of the following error that the sine uses."""
-COUNTS = 50.0
+_COUNTS = 50.0
 """Counts of the answer, where the limits allow it."""
-MIN_COUNTS = 0.5
+_MIN_COUNTS = 0.5
 """Counts of an answer below which it is none."""
-FINEST = 1e-4
+_FINEST = 1e-4
 """u: a count of an ideal device, for the choice of an amplitude."""
 
 
@@ -72,13 +72,13 @@ def tones_of(
     for frequency in frequencies:
         # Whole cycles, so that each tone begins at the zero of its sine, where the one before ended.
         wait = math.ceil(dies * frequency) / frequency
-        cycles = max(CYCLES, math.ceil(SAMPLES * model.period * frequency))
+        cycles = max(CYCLES, math.ceil(_SAMPLES * model.period * frequency))
         begin, end = start + wait, start + wait + cycles / frequency
         tones.append(Tone(frequency, amplitude or _amplitude(axis, model, frequency), start, begin, end))
         start = end
-    if start > LONGEST:
+    if start > _LONGEST:
         raise SimulationError(
-            f"The sweep takes {start:.6g} s of the axis; {LONGEST:.0f} s are simulated at most. Raise"
+            f"The sweep takes {start:.6g} s of the axis; {_LONGEST:.0f} s are simulated at most. Raise"
             " move.lowest",
             "move.lowest",
         )
@@ -104,7 +104,7 @@ def _amplitude(axis: AxisLaw, model: LinearModel, frequency: float) -> float:
         most.append(SHARE * torque * machine.acceleration_per_output / rate**2 / follows)
     if most and (machine.coulomb_friction or machine.backlash):
         return min(most)  # friction and backlash weigh less
-    return min([COUNTS * max(machine.position_count, machine.motor_count, FINEST) / follows, *most])
+    return min([_COUNTS * max(machine.position_count, machine.motor_count, _FINEST) / follows, *most])
 
 
 def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) -> Sweep:
@@ -125,7 +125,7 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
         inside = slice(*np.searchsorted(time, (tone.begin - 1e-9, tone.end - 1e-9)))  # time only grows
         for row, name in enumerate(("position", "measured_position")):
             answer = _fitted(time[inside] - tone.start, columns[name][inside], tone)
-            if abs(answer) * tone.amplitude >= MIN_COUNTS * axis.machine.position_count:
+            if abs(answer) * tone.amplitude >= _MIN_COUNTS * axis.machine.position_count:
                 found[row, n] = answer
     return Sweep(found[0], found[1], motion)
 

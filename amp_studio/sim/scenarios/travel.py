@@ -26,7 +26,7 @@ from .plane import SETTINGS as PLANE
 from .plane import run_plane
 from .step import COAST, RUN_OUT
 
-SETTINGS = {
+_SETTINGS = {
     "move.start": (
         "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit"
         " as it reaches its speed"
@@ -62,9 +62,9 @@ class _Approach:
         return self.edge - self.start
 
 
-def run_travel(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_travel(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Move an axis against the next limit in its way; raises SimulationError where there is none."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     approach = _approach(axis, settings)
     travel, start = approach.travel, approach.start
     course = MovingAxis(axis, coast=COAST if travel.coasts else 0.0)
@@ -275,8 +275,8 @@ def _zone(travel: Travel, settings: ScenarioSettings) -> dict[str, tuple[float, 
 SCENARIO = Scenario(
     "travel",
     "Against a limit of the travel: where the axis stops; axes X,Y past zones to move.to",
-    {**PLANE, **SETTINGS},
-    run_travel,
+    {**PLANE, **_SETTINGS},
+    _run_travel,
     gains=False,
     several=run_plane,
     part="travel",

@@ -27,10 +27,10 @@ from amp_studio.sim.tuning.solver import Solved, solve
 from amp_studio.sim.tuning.trial import Trial
 
 FOR = "tune.for"
-SETTINGS = {FOR: f"what the axis is tuned for: {', '.join(AIMS)}; default: normal"}
+_SETTINGS = {FOR: f"what the axis is tuned for: {', '.join(AIMS)}; default: normal"}
 POINTS = 400
 """Rows of the picture."""
-INERTIAS = np.geomspace(0.4, 2.5, 23)
+_INERTIAS = np.geomspace(0.4, 2.5, 23)
 """Shares of the inertia for which Ms is computed; the rows between are on a line."""
 LATER = (
     "the limit for counts is not kept",
@@ -41,12 +41,12 @@ LATER = (
 NOTHING = "No other gains are more than 3 % stiffer: nothing to change."
 
 
-def run_tune(trial: Trial, settings: ScenarioSettings, others: Sequence[Trial]) -> Trace:
+def _run_tune(trial: Trial, settings: ScenarioSettings, others: Sequence[Trial]) -> Trace:
     """Return the gains for an aim; ``others`` are the axes that make contours with this one.
 
     Raises SimulationError for an axis without a closed position loop or a word that is no aim.
     """
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     aim = _aim(settings)
     axis = trial.axis
     if not Loops(axis).closed:
@@ -151,9 +151,9 @@ def _picture(solved: Solved) -> tuple[dict[str, Series], dict[str, str]]:
     columns: dict[str, Series] = {"time_s": time}
     for name, model, good in zip(("before", "after"), models, stable, strict=True):
         columns[f"load_way_{name}"] = _way(model, time) if good else np.full(POINTS, np.nan)
-    columns["inertia_share"] = np.geomspace(INERTIAS[0], INERTIAS[-1], POINTS)
+    columns["inertia_share"] = np.geomspace(_INERTIAS[0], _INERTIAS[-1], POINTS)
     for name, each in (("before", solved.before), ("after", solved.after)):
-        columns[f"Ms_{name}"] = np.interp(columns["inertia_share"], INERTIAS, _over_inertia(each))
+        columns[f"Ms_{name}"] = np.interp(columns["inertia_share"], _INERTIAS, _over_inertia(each))
     unit = f"{axis.unit}/{torque_unit(axis)}"
     ways = {"load_way_before": unit, "load_way_after": unit}
     return columns, {"time_s": "s", **ways, "inertia_share": "", "Ms_before": "", "Ms_after": ""}
@@ -164,7 +164,7 @@ def _over_inertia(tried: Candidate) -> Series:
     stable.
     """
     found = []
-    for share in INERTIAS.tolist():
+    for share in _INERTIAS.tolist():
         loops = Loops(with_inertia(tried.axis, share), tried.law, exact=False)
         found.append(loops.sensitivity if loops.stable and loops.inner_stable else math.nan)
     return np.array(found)
@@ -185,7 +185,7 @@ def _way(model: LinearModel, time: Series) -> Series:
 SCENARIO = Scenario(
     "tune",
     "Gains for an aim in a word: quiet, normal, stiff, contour; before and after",
-    SETTINGS,
-    run_tune,
+    _SETTINGS,
+    _run_tune,
     tried=True,
 )

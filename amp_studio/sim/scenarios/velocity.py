@@ -25,24 +25,24 @@ from .columns import alarms_of, column_units, per_minute
 from .figures import steady
 from .step import RUN_OUT
 
-SETTINGS = {
+_SETTINGS = {
     "move.feedrate": "commanded velocity (mm/min or deg/min); default: a tenth of the rapid feedrate",
     "move.duration": "time at that velocity, and at rest after it (s); default: as the loop needs",
     "move.mode": "ramp of the command; default: none",
 }
 SHARE = 0.1
 """Share of the rapid feedrate of a step when no velocity is given: below the torque limit on most axes."""
-SHORTEST, LONGEST, LAGS = 0.1, 2.0, 12.0
+_SHORTEST, _LONGEST, _LAGS = 0.1, 2.0, 12.0
 """s, s, and time constants of the slowest pole: the time at the velocity."""
-BAND = 0.02
+_BAND = 0.02
 """Share of the step inside which the velocity has settled."""
-POSITIONS = ("command_position", "measured_position", "following_error")
+_POSITIONS = ("command_position", "measured_position", "following_error")
 """Columns that mean nothing while no position is commanded."""
 
 
-def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
+def _run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one step of the velocity; raises SimulationError if it is not possible."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     speed = feedrate_of(axis, settings) * (1.0 if settings.get("move.feedrate") is not None else SHARE)
     ramp = ramp_of(axis, settings) if settings.get("move.mode") is not None else Ramp()
     loop = axis_model(axis).inner
@@ -51,7 +51,7 @@ def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     motion = run_axis(axis, profile, RunEnd(2.0 * lasts), mode=VELOCITY_LOOP, coast=1.0)
     stable = loop is None or loop.is_stable(drift=True)
     margins = None if loop is None or stable else loop.margins()
-    columns = {name: each for name, each in per_minute(motion.columns).items() if name not in POSITIONS}
+    columns = {name: each for name, each in per_minute(motion.columns).items() if name not in _POSITIONS}
     units = column_units(axis)
     return Trace(
         scenario="velocity",
@@ -67,14 +67,14 @@ def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
 
 
 def _time(loop: LinearModel | None) -> float:
-    """Return the time in s in which the velocity loop settles; LONGEST for one that does not."""
+    """Return the time in s in which the velocity loop settles; _LONGEST for one that does not."""
     if loop is None:
         return 0.5
     sizes = np.abs(loop.poles())
     moving = sizes[sizes < 1.0 - 1e-6]
     if moving.size == 0 or np.any(sizes > 1.0 + 1e-6):
-        return LONGEST
-    return float(np.clip(-LAGS * loop.period / math.log(moving.max()), SHORTEST, LONGEST))
+        return _LONGEST
+    return float(np.clip(-_LAGS * loop.period / math.log(moving.max()), _SHORTEST, _LONGEST))
 
 
 def _figures(
@@ -89,7 +89,7 @@ def _figures(
     tenth, most = (np.flatnonzero(driven >= share * speed) for share in (0.1, 0.9))
     rise = float(time[most[0]] - time[tenth[0]]) if most.size else None
     end = steady(driven, 1e-6 * speed)
-    outside = np.flatnonzero(np.abs(driven / speed - 1.0) > BAND)
+    outside = np.flatnonzero(np.abs(driven / speed - 1.0) > _BAND)
     inside = int(outside[-1]) + 1 if outside.size else 0
     settle = float(time[inside]) if end is not None and inside < driven.size else None
     figures: dict[str, Figure] = {
@@ -118,7 +118,7 @@ def _swing(velocity: Series) -> float:
 SCENARIO = Scenario(
     "velocity",
     "One step of the velocity command on the velocity loop alone",
-    SETTINGS,
-    run_velocity,
+    _SETTINGS,
+    _run_velocity,
     checked=("settle_time", "overshoot", "peak_torque"),
 )

@@ -21,42 +21,42 @@ from .loops import Loops
 from .solver import Solved, solve
 from .tried import Tried
 
-INERTIAS = (1.0 / 16.0, 16.0)
+_INERTIAS = (1.0 / 16.0, 16.0)
 """Shares of the total inertia within which an axis is tried."""
 STEPS = 8
 """Steps to each of them."""
-HALVINGS = 5
+_HALVINGS = 5
 """Of the last of them."""
 
 SHOWN_BY = ("frequency", "velocity")
 """Scenarios that are about the loops: their results have the gains of the solver."""
-NO_MORE = 1e-3
+_NO_MORE = 1e-3
 """Share of the present integral gain up to which a new one takes nothing up within a move."""
 CHATTER = (
     "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone:"
     " it is not stable there, and chatters to and fro in the gap."
 )
-NONE_SOUND = "No gains within their bounds make it sound on this machine."
-NONE_OF_SIGN = (
+_NONE_SOUND = "No gains within their bounds make it sound on this machine."
+_NONE_OF_SIGN = (
     "No gains of these signs make it sound on this machine: {parameter} is below 0. Its sign is the wiring of"
     " the feedback, so the other one is not tried."
 )
-ASK_TUNE = "The scenario tune finds gains."
-FILTER_WEAKER = "A resonance that the model does not have may ring on: your choice."
+_ASK_TUNE = "The scenario tune finds gains."
+_FILTER_WEAKER = "A resonance that the model does not have may ring on: your choice."
 OTHER_SIGN = "None: an integral gain of the other sign pushes the axis away from its target."
-RAISED = "It raises a gain on a machine that is partly assumed: your choice."
+_RAISED = "It raises a gain on a machine that is partly assumed: your choice."
 
 
 def recommendations(
     trial: Tried, scenario: str, own: Sequence[Recommendation] = ()
 ) -> tuple[tuple[Recommendation, ...], tuple[str, ...]]:
     """Return the recommendations of the family and those of the solver, and notes about the loops."""
-    chatter = (CHATTER,) if chatters_in_gap(trial.axis) else ()
+    chatter = (CHATTER,) if _chatters_in_gap(trial.axis) else ()
     loops = Loops(trial.axis)
     if not loops.closed or loops.sound():
         return tuple(own), chatter
     if loops.stable and loops.inner_stable and scenario not in SHOWN_BY:
-        return tuple(own), (f"{why_not_sound(loops)}. {ASK_TUNE}", *chatter)
+        return tuple(own), (f"{why_not_sound(loops)}. {_ASK_TUNE}", *chatter)
     solved = solve(trial, NORMAL)
     found = gain_recommendations(trial, solved, f"{why_not_sound(loops)}; ")
     named = {each.parameter for each in found}
@@ -73,7 +73,7 @@ def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[R
     loops = solved.after.loops
     assumed = " on the assumed machine" if trial.axis.assumed else ""
     gives = (
-        f"{'all gains together' if len(solved.to_change) > 1 else 'with it'} {figures_text(loops)}{assumed}"
+        f"{'all gains together' if len(solved.to_change) > 1 else 'with it'} {_figures_text(loops)}{assumed}"
     )
     found: list[Recommendation] = []
     for gain in solved.gains:
@@ -102,7 +102,7 @@ def _reason(trial: Tried, first: str, found: Sequence[Recommendation], page: str
 def _filter_cost(trial: Tried, before: float | None, number: float) -> str:
     """Return what another filter costs, in a sentence."""
     if before is not None and number > before:
-        choice = f" {FILTER_WEAKER}" if trial.axis.assumed else ""
+        choice = f" {_FILTER_WEAKER}" if trial.axis.assumed else ""
         return (
             f"What the filter took out above {value_text(before, digits=3)} Hz comes through again.{choice}"
         )
@@ -115,7 +115,7 @@ def _cost(trial: Tried, solved: Solved, gain: Gain) -> str:
     if gain.present_size < 0.0:
         return OTHER_SIGN
     share = number / gain.present_size if gain.present else 0.0
-    choice = f" {RAISED}" if trial.axis.assumed else ""
+    choice = f" {_RAISED}" if trial.axis.assumed else ""
     if share > 1.0 or not gain.present:
         if gain.name == "position_gain":
             return f"Less margin for a heavier load, friction and wear.{choice}"
@@ -126,7 +126,7 @@ def _cost(trial: Tried, solved: Solved, gain: Gain) -> str:
         error = _following_errors(solved)
         return error or f"The axis answers {_times(1.0 / share)} more slowly."
     if "integral" in gain.name:
-        slower = f"{_times(1.0 / share)} more slowly" if share > NO_MORE else "no more"
+        slower = f"{_times(1.0 / share)} more slowly" if share > _NO_MORE else "no more"
         return f"A lasting load is corrected {slower}."
     return f"The axis resists a load {_times(1.0 / share)} less by this gain."
 
@@ -153,14 +153,14 @@ def _following_errors(solved: Solved) -> str:
 def none_sound(solved: Solved) -> str:
     """Return in a sentence that nothing sound was found; with a gain below 0, that its sign was kept."""
     below = next((gain.parameter for gain in solved.gains if gain.present_size > 0.0 > gain.present), None)
-    return NONE_SOUND if below is None else NONE_OF_SIGN.format(parameter=below)
+    return _NONE_SOUND if below is None else _NONE_OF_SIGN.format(parameter=below)
 
 
 def why_not_sound(loops: Loops) -> str:
     """Return in a sentence, without its end, what a loop lacks."""
     if not loops.inner_sound() and loops.inner is not None:
         if not loops.inner_stable:
-            return f"The velocity loop is not stable: {margins_text(loops.inner.margins)}"
+            return f"The velocity loop is not stable: {_margins_text(loops.inner.margins)}"
         ratio = loops.axis.machine.inertia_ratio
         load = (
             f" with a load of {value_text(ratio, digits=3)} times the inertia of the motor" if ratio else ""
@@ -170,13 +170,13 @@ def why_not_sound(loops: Loops) -> str:
             f" {_with_ms(loops.inner.margins, loops.inner.sensitivity)}"
         )
     if not loops.stable:
-        return f"The position loop is not stable: {margins_text(loops.outer.margins)}"
+        return f"The position loop is not stable: {_margins_text(loops.outer.margins)}"
     return (
         f"The position loop has too little margin: {_with_ms(loops.outer.margins, loops.outer.sensitivity)}"
     )
 
 
-def figures_text(loops: Loops) -> str:
+def _figures_text(loops: Loops) -> str:
     """Return Ms and margins of both loops in words."""
     if loops.inner is None:
         return _with_ms(loops.outer.margins, loops.outer.sensitivity)
@@ -188,10 +188,10 @@ def figures_text(loops: Loops) -> str:
 
 
 def _with_ms(margins: Margins, sensitivity: float) -> str:
-    return f"Ms {value_text(sensitivity, digits=3)}, {margins_text(margins)}"
+    return f"Ms {value_text(sensitivity, digits=3)}, {_margins_text(margins)}"
 
 
-def margins_text(margins: Margins) -> str:
+def _margins_text(margins: Margins) -> str:
     """Return margins in words."""
     parts = [
         f"{value_text(value, unit, 3)} {name} margin"
@@ -202,14 +202,14 @@ def margins_text(margins: Margins) -> str:
 
 
 def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
-    """Return between which shares of its total inertia a stable axis stays stable, within INERTIAS; None
+    """Return between which shares of its total inertia a stable axis stays stable, within _INERTIAS; None
     where it does not
     matter: a drive with a velocity loop is taken to fit its load.
     """
     if axis.machine.velocity_per_output > 0.0:
         return None
     law = LawMatrices.of(axis)  # the inertia has no part in it
-    return _stable_to(axis, law, INERTIAS[0]), _stable_to(axis, law, INERTIAS[1])
+    return _stable_to(axis, law, _INERTIAS[0]), _stable_to(axis, law, _INERTIAS[1])
 
 
 def _stable_to(axis: AxisLaw, law: LawMatrices, furthest: float) -> float:
@@ -221,7 +221,7 @@ def _stable_to(axis: AxisLaw, law: LawMatrices, furthest: float) -> float:
             bad = n / STEPS
             break
         good = n / STEPS
-    for _ in range(HALVINGS if bad else 0):
+    for _ in range(_HALVINGS if bad else 0):
         middle = 0.5 * (good + bad)
         good, bad = (
             (middle, bad) if _with_inertia(axis, law, furthest**middle).is_stable() else (good, middle)
@@ -234,7 +234,7 @@ def _with_inertia(axis: AxisLaw, law: LawMatrices, inertia: float) -> LinearMode
     return linear_model(replace(axis, machine=machine), law)
 
 
-def chatters_in_gap(axis: AxisLaw) -> bool:
+def _chatters_in_gap(axis: AxisLaw) -> bool:
     """Return whether a motor without its load, as it is inside of the backlash,
     is in a loop that is not stable.
     """

@@ -18,17 +18,17 @@ from amp_studio.sim.rounding import rounded
 from .linear import LawMatrices
 from .tried import Tried
 
-CUTOFFS = (1.0, 0.3, 0.1, 0.06, 0.04, 0.025, 0.016, 0.01, 0.006, 0.004)
+_CUTOFFS = (1.0, 0.3, 0.1, 0.06, 0.04, 0.025, 0.016, 0.01, 0.006, 0.004)
 """Shares of the highest cutoff of a low-pass that are tried."""
-NEAR = (1.25, 0.8)
+_NEAR = (1.25, 0.8)
 """Factors to the neighbours of a present value."""
-BESIDE = (1.0, 0.9, 1.12)
+_BESIDE = (1.0, 0.9, 1.12)
 """Middle of a notch as a share of the resonance: off it, the notch gives less phase away below."""
-WIDTHS = (0.9, 0.6, 0.3)
+_WIDTHS = (0.9, 0.6, 0.3)
 """Width of a notch as a share of its middle."""
-NARROWEST = 1.0
+_NARROWEST = 1.0
 """Hz: the width with which a notch takes next to nothing out."""
-DIGITS = 3
+_DIGITS = 3
 
 FilterSetting = tuple[tuple[str, float | None], ...]
 """Parameter -> value of each filter in the loops, in Hz; None where it is not set."""
@@ -49,26 +49,26 @@ class FilterUnknown:
     def nearest(self, value: float) -> float:
         """Return the frequency that the control can have."""
         near = min(max(value, self.low), self.high)
-        return float(round(near)) if self.whole else rounded(near, DIGITS)
+        return float(round(near)) if self.whole else rounded(near, _DIGITS)
 
     def others(self, setting: Mapping[str, float | None], resonance: float | None) -> Iterator[FilterSetting]:
         """Yield other settings of this filter alone; a notch is set at a resonance that is known."""
         now = setting[self.frequency]
         if not self.width:
-            tried = [share * self.filter.highest for share in CUTOFFS]
-            tried += [now * factor for factor in NEAR if now is not None]
+            tried = [share * self.filter.highest for share in _CUTOFFS]
+            tried += [now * factor for factor in _NEAR if now is not None]
             # None is no candidate where a cutoff is set: the highest one takes as little out.
             for value in dict.fromkeys(self.nearest(each) for each in tried):
                 if value != now:
                     yield ((self.frequency, value),)
             return
-        middles = [share * resonance for share in BESIDE] if resonance else []
-        pairs = [(self.nearest(middle), share * middle) for middle in middles for share in WIDTHS]
+        middles = [share * resonance for share in _BESIDE] if resonance else []
+        pairs = [(self.nearest(middle), share * middle) for middle in middles for share in _WIDTHS]
         if now is not None:
-            pairs.append((now, NARROWEST))
+            pairs.append((now, _NARROWEST))
         for middle, width in pairs:
-            narrow = min(middle, max(NARROWEST, rounded(width, DIGITS)))
-            if (middle, narrow) != (now, setting[self.width]) and middle > NARROWEST:
+            narrow = min(middle, max(_NARROWEST, rounded(width, _DIGITS)))
+            if (middle, narrow) != (now, setting[self.width]) and middle > _NARROWEST:
                 yield ((self.frequency, middle), (self.width, narrow))
 
 
@@ -123,7 +123,7 @@ def _moves(trial: Tried, unknown: FilterUnknown) -> bool:
     """Return whether a filter has a part in the loops of this axis: another drive has none."""
     values = {unknown.frequency: unknown.nearest(0.1 * unknown.high)}
     if unknown.width:
-        values[unknown.width] = max(NARROWEST, 0.5 * values[unknown.frequency])
+        values[unknown.width] = max(_NARROWEST, 0.5 * values[unknown.frequency])
     other = trial.bound(values)
     if other is None:
         return False

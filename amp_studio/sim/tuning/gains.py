@@ -12,7 +12,7 @@ from amp_studio.sim.rounding import rounded
 from .linear import LawMatrices
 from .tried import Tried
 
-DIGITS = 3
+_DIGITS = 3
 """Digits of a gain that is no whole number."""
 SMALLEST, LARGEST = 1e-8, 1e5
 """Gains between which is sought where the manual prints no bound."""
@@ -44,7 +44,7 @@ class Gain:
         """Return the value that the control can have, without its sign."""
         if value <= 0.0:
             return 0.0
-        near = float(round(value)) if self.whole else rounded(value, DIGITS)
+        near = float(round(value)) if self.whole else rounded(value, _DIGITS)
         near = near if self.decimals is None else round(near, self.decimals)
         return min(max(near, self.low), self.high)
 

@@ -12,9 +12,9 @@ from .aims import Aim
 from .linear import LawMatrices
 from .loops import SOUND, LoopDemand, Loops, spread_of
 
-RESERVE = 0.99
+_RESERVE = 0.99
 """Share of every limit that is used: what is tried is computed within half a percent."""
-FULL_PERCENT = 100.0
+_FULL_PERCENT = 100.0
 
 
 class Candidate:
@@ -38,7 +38,7 @@ class Candidate:
     def jolt(self) -> float:
         """By which share of its range one count of the feedback moves the output."""
         machine = self.axis.machine
-        full = FULL_PERCENT if self.axis.output_unit == "%" else machine.output_limit
+        full = _FULL_PERCENT if self.axis.output_unit == "%" else machine.output_limit
         # The coarser device moves the output most.
         count = max(machine.motor_count, machine.position_count)
         return self.law.jolt() * count / full if math.isfinite(full) else 0.0
@@ -54,7 +54,7 @@ class Level:
     slowest: float = math.inf
     """1/s: the greatest position gain."""
 
-    def keeps(self, tried: Candidate, reserve: float = RESERVE) -> bool:
+    def keeps(self, tried: Candidate, reserve: float = _RESERVE) -> bool:
         """Return whether a candidate keeps it."""
         # The cheapest question first: loops on the machines that it may be cost most.
         if tried.axis.position_rate > self.slowest * (1.0 + 1e-9) or tried.jolt > self.jolt:

@@ -23,27 +23,27 @@ from .sampled import Matrix, Places, SampledLoop, jacobian, plant_of, sampled
 
 _POINTS = 2400
 """Points of the grid on which crossings are sought before they are refined."""
-WELL_APART = 1e6
+_WELL_APART = 1e6
 """Condition of the eigenvectors up to which they are used: nine digits of the response are left."""
-SHARP = 0.3
+_SHARP = 0.3
 """Damping ratio of a pole around which the grid is closer."""
 CLOSE = 41
 """Points of the grid around a pole."""
-SLOWER = 20.0
+_SLOWER = 20.0
 """Ten times below the slowest pole the grid begins at the latest."""
 _WIDTHS = np.array([-4.0, -2.5, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.5, 4.0])
 """Half-widths of its peak beside a pole at which the grid has points."""
-HALVINGS, COARSE = 48, 12
+_HALVINGS, _COARSE = 48, 12
 """Halvings of the space between two points around a crossing, for a figure and for a value that is tried."""
 _LOWEST = 1e-4
 """Lowest frequency of the grid as a share of the sampling frequency."""
 _NOTHING = 1e-300
 """Keeps the logarithm of a response of 0 finite."""
-LONGEST_STEP = 20.0
+_LONGEST_STEP = 20.0
 """s that a push on the axis is followed for."""
-JOLTED = 12
+_JOLTED = 12
 """Samples within which a count moves the output most: longer than the first peak of a filter."""
-HALF_POWER = math.sqrt(0.5)
+_HALF_POWER = math.sqrt(0.5)
 """Share of the amplitude at the bandwidth: -3 dB."""
 
 
@@ -145,7 +145,7 @@ class LinearModel(SampledLoop):
         sought on a grid of ``points`` frequencies and more at poles.
         """
         grid = self.grid(points)
-        halvings = HALVINGS if points >= _POINTS else COARSE
+        halvings = _HALVINGS if points >= _POINTS else _COARSE
         size = _crossings(lambda f: np.log(np.abs(self.loop(f)) + _NOTHING), grid, halvings)
         phase = _least([(_phase_margin(self._at(f)), f) for f in size])
         real = _crossings(lambda f: self.loop(f).imag, grid, halvings)
@@ -206,7 +206,7 @@ class LinearModel(SampledLoop):
             return math.inf, math.inf
         # Until the slowest pole has left a ten thousandth.
         needed = math.log(1e-4) / math.log(slowest) if slowest > 0.0 else 1.0
-        steps = math.ceil(min(max(needed, window / self.period + 1.0), LONGEST_STEP / self.period))
+        steps = math.ceil(min(max(needed, window / self.period + 1.0), _LONGEST_STEP / self.period))
         way = np.abs(self.pushed_way(steps))
         # A push that is not followed to its end stays where (I - A)⁻¹ puts it.
         stays = float(
@@ -234,7 +234,7 @@ class LinearModel(SampledLoop):
         with its feed-forward or without; None if it always does.
         """
         answer = self.follows if forward else self.feedback
-        fall = _crossings(lambda f: np.log(np.abs(answer(f)) / HALF_POWER + _NOTHING), self.grid())
+        fall = _crossings(lambda f: np.log(np.abs(answer(f)) / _HALF_POWER + _NOTHING), self.grid())
         return fall[0] if fall else None
 
     def oscillations(self) -> list[tuple[float, float]]:
@@ -261,7 +261,7 @@ class LinearModel(SampledLoop):
             inverse = np.asarray(np.linalg.inv(vectors), dtype=np.complex128)
         except np.linalg.LinAlgError:
             return None
-        if np.linalg.norm(vectors) * np.linalg.norm(inverse) > WELL_APART:  # a bound of the condition
+        if np.linalg.norm(vectors) * np.linalg.norm(inverse) > _WELL_APART:  # a bound of the condition
             return None
         return values, vectors, inverse
 
@@ -300,12 +300,12 @@ class LawMatrices:
 
     def jolt(self) -> float:
         """Return by how much one unit of the measured position, which stays, moves the output at most in
-        `JOLTED` samples: a filter spreads it over several.
+        `_JOLTED` samples: a filter spreads it over several.
         """
         signal, most = self.places.signals, 0.0
         measured = [signal["position"], signal["motor"]]
         z = np.zeros((len(self.position), 1))
-        for n in range(JOLTED):
+        for n in range(_JOLTED):
             z[measured] = 1.0
             if n % self.loops == 0:
                 z = self.position @ z
@@ -326,7 +326,7 @@ def linear_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel:
     return LinearModel(**vars(loop))
 
 
-NEAR = 3.0
+_NEAR = 3.0
 """An oscillation this many times faster than the position loop is that of another loop."""
 
 
@@ -347,7 +347,7 @@ class AxisModel:
         """
         if crossing is None:
             return 1.0
-        nearest = NEAR * 2.0 * math.pi * crossing
+        nearest = _NEAR * 2.0 * math.pi * crossing
         pairs = [pair for pair in self.whole.oscillations() if pair[0] < nearest]
         return min(pairs)[1] if pairs else 1.0
 
@@ -420,10 +420,10 @@ def _around(poles: Response, period: float, points: int, close: int) -> Matrix:
     even = _even(period, points)
     rates = np.log(poles[np.abs(poles) > 1e-6])
     moving = np.abs(rates)[np.abs(rates) > 1e-9]
-    lowest = float(moving.min(initial=1.0)) / (SLOWER * math.pi * period)
+    lowest = float(moving.min(initial=1.0)) / (_SLOWER * math.pi * period)
     if lowest < even[0]:  # a loop that is slower than the grid begins
         even = np.concatenate([np.geomspace(lowest, even[0], points // 4, endpoint=False), even])
-    sharp = rates[(np.abs(rates.real) < SHARP * np.abs(rates)) & (rates.imag > 0.0)]
+    sharp = rates[(np.abs(rates.real) < _SHARP * np.abs(rates)) & (rates.imag > 0.0)]
     if not sharp.size:
         return even
     peaks, widths = sharp.imag / (2.0 * math.pi * period), -sharp.real / np.abs(sharp)
@@ -463,7 +463,7 @@ def _queue(a: Matrix) -> list[tuple[int, int]]:
     return found
 
 
-def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix, halvings: int = HALVINGS) -> list[float]:
+def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix, halvings: int = _HALVINGS) -> list[float]:
     """Return where a function of the frequency changes its sign, refined by halving."""
     values = function(grid)
     changes = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))

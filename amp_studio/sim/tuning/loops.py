@@ -18,7 +18,7 @@ from .linear import AxisModel, LawMatrices, LinearModel, Margins, axis_model
 
 POINTS = 120
 """Points of the grid for a value that is tried."""
-LASTING = 0.25
+_LASTING = 0.25
 """s in which a loop shall have taken a load up again:
 the mean way of the load in this time counts beside the largest one."""
 
@@ -128,9 +128,9 @@ class Loops:
     @cached_property
     def yields(self) -> tuple[float, float]:
         """The largest way of the load, in u, for one unit of torque that comes at once and stays,
-        and its mean in `LASTING` s.
+        and its mean in `_LASTING` s.
         """
-        return self.models.whole.yields(LASTING)
+        return self.models.whole.yields(_LASTING)
 
     def inner_sound(self) -> bool:
         """Return whether the velocity loop keeps what every sound axis keeps."""
@@ -154,14 +154,14 @@ class Loops:
         return max(missing)
 
 
-SPREAD = ((0.5, 0.0), (2.0, 0.0))
+_SPREAD = ((0.5, 0.0), (2.0, 0.0))
 """Shares of inertia and of viscous friction that a machine may have beside those it is taken to have. Twice
 the friction takes phase away from no loop: the campaign of tests/sim/tuning_campaign.py checks it."""
 
 
 def spread_of(axis: AxisLaw) -> list[AxisLaw]:
     """Return an axis with other machines: half and twice the inertia, without friction."""
-    others = [with_inertia(axis, inertia, friction) for inertia, friction in SPREAD]
+    others = [with_inertia(axis, inertia, friction) for inertia, friction in _SPREAD]
     return [replace(axis, machine=machine) for machine in dict.fromkeys(each.machine for each in others)]
 
 

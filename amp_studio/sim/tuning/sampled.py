@@ -20,7 +20,7 @@ from amp_studio.sim.errors import SimulationError
 
 Matrix = npt.NDArray[np.float64]
 
-LONGEST_DELAY = 100
+_LONGEST_DELAY = 100
 """Most samples of the faster loop from an output to its effect."""
 # A power of two, so that the division by it is exact.
 _STEP = 2.0**-23
@@ -149,9 +149,9 @@ def sampled(
     if 1.0 - rest < 1e-9:
         whole, rest = whole + 1.0, 0.0
     waiting = int(whole) + (1 if rest > 1e-9 else 0)
-    if waiting > LONGEST_DELAY:
+    if waiting > _LONGEST_DELAY:
         raise SimulationError(
-            f"The delay of the machine is {waiting} samples of the loop; at most {LONGEST_DELAY} are"
+            f"The delay of the machine is {waiting} samples of the loop; at most {_LONGEST_DELAY} are"
             " simulated",
             "model.delay",
         )

@@ -22,28 +22,28 @@ from .gains import Gain, GainPoint, gains_of
 from .levels import Candidate, Level, levels_of
 from .tried import Tried
 
-SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
+_SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
 """Of the largest gain of a loop that are tried with every gain outside of it; 0 as well for an integral
 one."""
-COARSE = 2.0
+_COARSE = 2.0
 """Factor between two gains on the way down to the first sound one."""
 CLOSE = 1.06
 """Factor within which the largest sound gain is found; the steps that follow are finer than that."""
 STEPS = (1.25, 1.1, 1.04, 1.015)
 """Factors by which the best gains are moved about."""
-STARTS = 3
+_STARTS = 3
 """Points, of different innermost gains, from which is moved about:
 the best gains of one may be in another valley."""
-MIN_BENEFIT = 1.03
+_MIN_BENEFIT = 1.03
 """Less stiffness than this factor is not worth a change."""
-FILTER_BENEFIT = 1.1
+_FILTER_BENEFIT = 1.1
 """Less stiffness than this factor is not worth another filter:
 it may be set against what the model of the machine does not know."""
-FILTER_SHARES = (4.0, 2.5, 1.6, 1.25, 1.0, 0.8, 0.63)
+_FILTER_SHARES = (4.0, 2.5, 1.6, 1.25, 1.0, 0.8, 0.63)
 """Factors of all gains with which another filter is judged before the gains are sought with it."""
-TRIED_FIRST = 3
+_TRIED_FIRST = 3
 """Of the filters with which there are sound gains at all, where the present ones leave none."""
-SEARCHED = 1
+_SEARCHED = 1
 """Other filters that look best by them, with which the gains are sought: each search takes seconds."""
 
 
@@ -132,7 +132,7 @@ class Search:
         starts = {point[0]: point for point in reversed(ranked)}  # the best with each innermost gain
         moved = [
             self._moved(point, STEPS[0], levels, level)
-            for point in sorted(starts.values(), key=ranked.index)[:STARTS]
+            for point in sorted(starts.values(), key=ranked.index)[:_STARTS]
         ]
         best = min(moved, key=lambda point: (self.yields(point), point))
         # Ever smaller steps from the best alone: from each start they would cost more and find the
@@ -143,7 +143,7 @@ class Search:
 
     def scaled(self, point: GainPoint, levels: Sequence[Level], level: int) -> GainPoint | None:
         """Return the largest share of gains that keeps a level here; None where none does."""
-        for share in FILTER_SHARES:
+        for share in _FILTER_SHARES:
             there = tuple(gain.nearest(share * value) for gain, value in zip(self.gains, point, strict=True))
             if self.keeps(there, levels, level):
                 return there
@@ -174,7 +174,7 @@ class Search:
         elif index == len(self.gains) - 1:
             values = (largest,)
         else:
-            values = tuple(gain.nearest(share * largest) for share in SHARES)
+            values = tuple(gain.nearest(share * largest) for share in _SHARES)
         if gain.may_be_none:
             values = (*values, 0.0)
         for value in dict.fromkeys(values):
@@ -199,9 +199,9 @@ class Search:
         value, bad = min(gain.high, self._near.get(index, math.inf)), None
         # Up to where it fails, down to where it is good again, then halving the ratio between the two.
         while value < gain.high and good(value):
-            value = min(COARSE * value, gain.high)
+            value = min(_COARSE * value, gain.high)
         while not good(value):
-            bad, value = value, value / COARSE
+            bad, value = value, value / _COARSE
             if bad <= gain.low:
                 return None
             value = max(value, gain.low)
@@ -328,7 +328,7 @@ class _FilterSearches:
         self, setting: FilterSetting, point: GainPoint | None, levels: Sequence[Level], level: int
     ) -> Chosen | None:
         """Return filters with which a level is kept by a loop that is stiffer by what a filter is worth."""
-        most = math.inf if point is None else self.search(setting).yields(point) / FILTER_BENEFIT
+        most = math.inf if point is None else self.search(setting).yields(point) / _FILTER_BENEFIT
         found = []
         for other in self._promising(setting, point, levels, level):
             there = self.search(other).best(levels, level)
@@ -343,14 +343,14 @@ class _FilterSearches:
         others = self._filters.others(setting)
         if point is None:
             # No gains keep the level with the present filters: those that have any at all.
-            return [other for other in others if self.search(other).any(levels, level)][:TRIED_FIRST]
+            return [other for other in others if self.search(other).any(levels, level)][:_TRIED_FIRST]
         most, found = self.search(setting).yields(point), []
         for other in others:
             search = self.search(other)
             scaled = search.scaled(point, levels, level)
             if scaled is not None and search.yields(scaled) < most:
                 found.append((search.yields(scaled), other))
-        return [other for _, other in sorted(found, key=lambda each: each[0])[:SEARCHED]]
+        return [other for _, other in sorted(found, key=lambda each: each[0])[:_SEARCHED]]
 
     def least_bad(self, levels: Sequence[Level]) -> Chosen | None:
         """Return, of all that was tried, the stable loop that misses a sound axis by least."""
@@ -378,15 +378,15 @@ def _clearly_better(
         lacks = [settings.candidate(each) for each in (present, best)]
         need = levels[-1].need
         misses = [math.inf if each is None else each.loops.lacks(need) for each in lacks]
-        return best if misses[1] < misses[0] / MIN_BENEFIT else present
+        return best if misses[1] < misses[0] / _MIN_BENEFIT else present
     search, point = settings.search(best[0]), best[1]
     least = search.yields(point)
     # A change must be worth a person's time at the machine.
-    if level == now and least * MIN_BENEFIT >= settings.search(present[0]).yields(present[1]):
+    if level == now and least * _MIN_BENEFIT >= settings.search(present[0]).yields(present[1]):
         return present
     for n, value in enumerate(present[1]):  # what may stay as it is stays
         kept = (*point[:n], value, *point[n + 1 :])
-        if search.keeps(kept, levels, level) and search.yields(kept) <= least * MIN_BENEFIT:
+        if search.keeps(kept, levels, level) and search.yields(kept) <= least * _MIN_BENEFIT:
             point = kept
     return best[0], point
 

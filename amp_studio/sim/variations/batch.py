@@ -41,7 +41,7 @@ FIGURES = (
 """Columns of the result: number of the alarm, u, u, s, s, torque, torque, output, u."""
 TARGET, BAND, COUNT = 0, 1, 2
 """Of the wanted motion: its end, the band in which it is there, a count of the position device; u."""
-NOISE_COUNTS, GROWN, MIN_SWING, EDGE = 3.0, 1.0 + 1e-6, 1e-9, 1.0 + 1e-9
+_NOISE_COUNTS, _GROWN, _MIN_SWING, _EDGE = 3.0, 1.0 + 1e-6, 1e-9, 1.0 + 1e-9
 """As in scenarios/figures.py."""
 
 
@@ -78,7 +78,7 @@ def measure(
     for n in range(samples):
         peak = max(peak, abs(rows[n * every, 5]))
         # Settled is the sample after the last one outside of the band.
-        if abs(wanted[TARGET] - rows[n * every, 1] + rows[n * every, 5]) > wanted[BAND] * EDGE:
+        if abs(wanted[TARGET] - rows[n * every, 1] + rows[n * every, 5]) > wanted[BAND] * _EDGE:
             first = n + 1
     at = (samples - 1) * every
     out[0], out[1], out[2] = stop, peak, max(0.0, furthest - abs(wanted[TARGET]))
@@ -94,7 +94,7 @@ def measure(
     if half >= 4:
         before = span(rows, first, first + half, every, wanted[TARGET])
         after = span(rows, first + half, samples, every, wanted[TARGET])
-        if after > max(before, NOISE_COUNTS * wanted[COUNT]) * GROWN and after > MIN_SWING:
+        if after > max(before, _NOISE_COUNTS * wanted[COUNT]) * _GROWN and after > _MIN_SWING:
             return
     out[4] = rows[first * every, 0]
     out[3] = max(0.0, out[4] - end)

@@ -19,8 +19,8 @@ from amp_studio.sim.law import AxisLaw
 
 BindPoint = Callable[[Sequence[float]], AxisLaw | None]
 """bind(point) -> the axis as the file makes it; None where it cannot be."""
-VECTORS = ("parameters", "linear_parameters", "push")
-NUMBERS = (
+_VECTORS = ("parameters", "linear_parameters", "push")
+_NUMBERS = (
     "position_sample",
     "velocity_sample",
     "state_size",
@@ -33,7 +33,7 @@ NUMBERS = (
     "ramps",
 )
 """What a run depends on beside the vectors and the machine."""
-SETTLED = frozenset({("", "position_rate"), ("", "rest_band")})
+_SETTLED = frozenset({("", "position_rate"), ("", "rest_band")})
 """Places that two figures may change: `AxisLaw.settled` makes them of the vectors and the machine."""
 _MACHINE = tuple(field.name for field in fields(Machine))
 _Parts = dict[tuple[str, object], Any]
@@ -41,9 +41,9 @@ _Parts = dict[tuple[str, object], Any]
 
 def _parts(axis: AxisLaw) -> _Parts:
     """Return all figures of an axis that a run depends on, each under its place."""
-    found: _Parts = {("", name): getattr(axis, name) for name in NUMBERS}
+    found: _Parts = {("", name): getattr(axis, name) for name in _NUMBERS}
     found["", "ramps"] = dict(axis.ramps)
-    for name in VECTORS:
+    for name in _VECTORS:
         vector = getattr(axis, name)
         found |= {(name, n): each for n, each in enumerate(() if vector is None else vector)}
         found["shape", name] = None if vector is None else len(vector)
@@ -93,7 +93,7 @@ class ComposedAxes:
         if self._base is None:
             return self._bind(point)
         together: _Parts = {}
-        shared = SETTLED if self._base.settled else frozenset()
+        shared = _SETTLED if self._base.settled else frozenset()
         for n, number in enumerate(point):
             changed = self._changed(n, number)
             # Two figures move the same number: only the file knows what both together make of it.

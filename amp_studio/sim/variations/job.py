@@ -45,7 +45,7 @@ LOOP_FIGURES = (
 """Figures of the linear loops; ``sound`` is 1 or 0, all others nan for a loop that is not stable."""
 AT_ONCE = 250
 """Variations in one batch."""
-MIN_BENEFIT = 6
+_MIN_BENEFIT = 6
 """Variations for each value of a grid from which axes are put together: three are bound for each.
 Samples have as many values as points."""
 
@@ -146,7 +146,7 @@ class Axes:
         self._machine = self._machine_alone()
         self.composed: ComposedAxes | None = None
         steps = [each.steps for each in job.varied]
-        if all(steps) and math.prod(filter(None, steps)) > MIN_BENEFIT * sum(filter(None, steps)):
+        if all(steps) and math.prod(filter(None, steps)) > _MIN_BENEFIT * sum(filter(None, steps)):
             self.composed = ComposedAxes(self.at, [each.grid() for each in job.varied])
 
     def all(self, points: Sequence[Sequence[float]]) -> list[_Bound | None]:

@@ -16,9 +16,9 @@ from .job import Axes, SweepJob, axes_of
 from .plan import Varied, typed
 
 FIGURE = re.compile(r"[-+]?[0-9]+(?:[.,][0-9]+)?")
-STRETCHES = 6
+_STRETCHES = 6
 """Stretches of values that are named at most."""
-TRIED = 64
+_TRIED = 64
 """Points spread over all of them that are tried before a sweep is refused."""
 
 
@@ -43,9 +43,9 @@ def refuse_if_none(job: SweepJob, points: Matrix) -> None:
 def _spread(points: Matrix) -> Iterator[list[float]]:
     """Yield points of the corners of what is varied, as far as there are any, and others between them."""
     at_corner = np.all((points == points.min(axis=0)) | (points == points.max(axis=0)), axis=1)
-    yield from points[at_corner][:TRIED].tolist()
+    yield from points[at_corner][:_TRIED].tolist()
     # Not each n-th row of a grid, which may be one column of it.
-    yield from np.random.default_rng(1).permutation(points)[:TRIED].tolist()
+    yield from np.random.default_rng(1).permutation(points)[:_TRIED].tolist()
 
 
 def _stays_beyond(axes: Axes, varied: Varied, numbers: Matrix) -> bool:
@@ -94,7 +94,7 @@ def _which(varied: Sequence[Varied], points: Matrix, refused: Matrix) -> Iterato
             edges = np.flatnonzero(np.diff(none)) + 1
             parts = zip(np.split(there, edges), np.split(none, edges), strict=True)
             alone += [_stretch(each, part) for part, is_none in parts if is_none[0]]
-    yield from alone[:STRETCHES] or bounds
+    yield from alone[:_STRETCHES] or bounds
 
 
 def _stretch(varied: Varied, numbers: Matrix) -> str:

@@ -35,15 +35,15 @@ from .worker import SweepWorker, WorkerEndedError
 
 SweepProgress = Callable[[str, int, int], None]
 """progress(stage, done, of all)."""
-STAGE = "sweep"
+_STAGE = "sweep"
 SMALL = 500
 """Variations for which no further process is worth its start;
 of those with loops each counts as many times as below."""
-LOOPS_COUNT = 10
-SCHEMES = ("tcp://", "tls://")
+_LOOPS_COUNT = 10
+_SCHEMES = ("tcp://", "tls://")
 CONNECT_S = 10.0
 """Seconds that a scheduler has for its answer."""
-SUFFIX = ".part"
+_SUFFIX = ".part"
 
 
 @dataclass
@@ -57,7 +57,7 @@ class DoneChunks:
     @classmethod
     def beside(cls, output: Path | None, job: SweepJob, points: Matrix) -> DoneChunks:
         """Return what is kept beside an output of the same job; nothing of another one."""
-        chunks = cls(None if output is None else output.with_name(output.name + SUFFIX), job.digest(points))
+        chunks = cls(None if output is None else output.with_name(output.name + _SUFFIX), job.digest(points))
         if chunks.path is not None:
             with suppress(OSError, ValueError, KeyError, TypeError):
                 chunks._read(len(job.columns), len(points))
@@ -124,7 +124,7 @@ def run_job(
     starts = [start for start in range(0, len(points), AT_ONCE) if start not in kept.done]
 
     def report() -> None:
-        progress(STAGE, sum(len(each) for each in kept.done.values()), len(points))
+        progress(_STAGE, sum(len(each) for each in kept.done.values()), len(points))
 
     report()
     parts = _on_cluster if scheduler else _here
@@ -138,7 +138,7 @@ def run_job(
 def _cores(job: SweepJob, points: Matrix, cores: int | None) -> int:
     if cores is not None:
         return cores
-    work = len(points) * (LOOPS_COUNT if job.loops else 1)
+    work = len(points) * (_LOOPS_COUNT if job.loops else 1)
     return (os.cpu_count() or 1) if work > SMALL else 1
 
 
@@ -195,7 +195,7 @@ def _on_cluster(
     job: SweepJob, points: Matrix, starts: list[int], scheduler: str
 ) -> Iterator[tuple[int, Matrix]]:
     """Yield the parts as the workers of a cluster finish them; raises SimulationError where none answers."""
-    if not scheduler.startswith(SCHEMES):
+    if not scheduler.startswith(_SCHEMES):
         raise SimulationError(f"'{scheduler[:80]}' is no address of a scheduler: tcp://HOST:PORT")
     try:
         distributed: Any = importlib.import_module("distributed")

@@ -40,7 +40,7 @@ from .running import SweepProgress, run_job
 from .text import MORE_IS_BETTER
 
 OVER, SAMPLES, FIGURE, SEED = "sweep.over", "sweep.samples", "sweep.figure", "sweep.seed"
-SETTINGS = {
+_SETTINGS = {
     OVER: (
         "what is varied, NAME=FROM:TO:STEPS, several with a semicolon between; default: two gains of the axis"
     ),
@@ -51,12 +51,12 @@ SETTINGS = {
 }
 SIDE, ALONE = 15, 41
 """Steps of each of two gains, and of one, by default."""
-FURTHEST = 4.0
+_FURTHEST = 4.0
 """Times the present gain, and its part, between which is swept then."""
-MAX_LOOPS = 2500
+_MAX_LOOPS = 2500
 """Variations of which the loops are computed too, where they are not asked for: each takes some
 milliseconds."""
-PERCENTILES = (5, 25, 50, 75, 95)
+_PERCENTILES = (5, 25, 50, 75, 95)
 
 
 @dataclass(frozen=True)
@@ -69,11 +69,11 @@ class SweepWay:
     output: Path | None = None
 
 
-def run_sweep(
+def _run_sweep(
     trial: Trial, settings: ScenarioSettings, _others: Sequence[Trial] = (), way: SweepWay = SweepWay()
 ) -> Trace:
     """Return the figures of all variations; raises SimulationError for impossible settings."""
-    refuse_unknown(settings, SETTINGS)
+    refuse_unknown(settings, _SETTINGS)
     samples, seed, figure = _whole(settings, SAMPLES), _whole(settings, SEED), _figure(settings)
     move = {name: value for name, value in settings.items() if name.startswith("move.")}
     if not settings.get(OVER):
@@ -81,7 +81,7 @@ def run_sweep(
     varied = _varied(trial, str(settings[OVER]))
     points = points_of(varied, samples, 1 if seed is None else seed)
     motion = figure not in LOOP_FIGURES
-    loops = not motion or (figure is None and len(points) <= MAX_LOOPS)
+    loops = not motion or (figure is None and len(points) <= _MAX_LOOPS)
     job = _job(trial, varied, move, motion=motion, loops=loops)
     refuse_if_none(job, points)
     found = _run(job, points, way)
@@ -203,7 +203,7 @@ def _two_gains(trial: Trial, also: Mapping[str, float]) -> tuple[Varied, ...]:
     found = []
     for gain in wanted:
         around = [abs(gain.present), abs(also.get(gain.parameter, gain.present)) or abs(gain.present)]
-        ends = (gain.nearest(min(around) / FURTHEST), gain.nearest(max(around) * FURTHEST))
+        ends = (gain.nearest(min(around) / _FURTHEST), gain.nearest(max(around) * _FURTHEST))
         low, high = sorted(gain.sign * end for end in ends)
         found.append(
             read_varied(
@@ -221,7 +221,7 @@ def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: 
     columns: dict[str, Series] = {each.name: points[:, n] for n, each in enumerate(job.varied)}
     columns |= {name: matrix[:, n] for n, name in enumerate(job.columns)}
     columns["safe"] = _safe(job, columns)
-    units = {each.name: each.unit or setting_unit(axis, each.name) for each in job.varied}
+    units = {each.name: each.unit or _setting_unit(axis, each.name) for each in job.varied}
     units |= {name: unit for name, unit in _units(axis).items() if name in columns} | {"safe": ""}
     present = {each.name: _present(axis, job, trial, each) for each in job.varied}
     return Trace(
@@ -282,7 +282,7 @@ def _units(axis: AxisLaw) -> dict[str, str]:
     }
 
 
-def setting_unit(axis: AxisLaw, name: str) -> str:
+def _setting_unit(axis: AxisLaw, name: str) -> str:
     """Return the unit of a setting that is varied."""
     if name.startswith("model."):
         return present_setting(axis, name)[1]
@@ -318,7 +318,7 @@ def _figures(columns: dict[str, Series], units: dict[str, str], figure: str) -> 
         if values is None:
             continue
         there = values[np.isfinite(values)]
-        for part in PERCENTILES:
+        for part in _PERCENTILES:
             value = float(np.percentile(there, part)) if there.size else None
             result[f"{name}_p{part}"] = value, units[name]
     return result
@@ -327,7 +327,7 @@ def _figures(columns: dict[str, Series], units: dict[str, str], figure: str) -> 
 SCENARIO = Scenario(
     "sweep",
     "Many variations: a map of two gains with its safe region, percentiles of an uncertain machine",
-    SETTINGS,
-    run_sweep,
+    _SETTINGS,
+    _run_sweep,
     tried=True,
 )

@@ -12,7 +12,7 @@ import numpy as np
 from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Figure, Trace
 
-PERCENTILE = re.compile(r"(.+)_p([0-9]+)")
+_PERCENTILE = re.compile(r"(.+)_p([0-9]+)")
 MORE_IS_BETTER = ("phase_margin", "gain_margin", "damping_ratio")
 """Figures of which the best is the largest."""
 Spread = dict[str, dict[str, Figure]]
@@ -26,7 +26,7 @@ def parted(trace: Trace) -> tuple[Mapping[str, Figure], Spread]:
     single: dict[str, Figure] = {}
     spread: Spread = {}
     for name, figure in trace.result.items():
-        found = PERCENTILE.fullmatch(name)
+        found = _PERCENTILE.fullmatch(name)
         if found:
             spread.setdefault(found[1], {})[found[2]] = figure
         else:
@@ -56,7 +56,7 @@ def best_row(trace: Trace) -> int | None:
     return int(np.nanargmax(values) if trace.figure in MORE_IS_BETTER else np.nanargmin(values))
 
 
-def safe_ranges(trace: Trace) -> dict[str, tuple[float, float]]:
+def _safe_ranges(trace: Trace) -> dict[str, tuple[float, float]]:
     """Return between which values of each varied thing a variation is safe; empty where none is."""
     safe = trace.columns["safe"] == 1.0
     if not safe.any():
@@ -77,7 +77,7 @@ def variation_lines(trace: Trace) -> Iterator[str]:
             f"{name} {value_text(float(trace.columns[name][row]), trace.units[name])}" for name in trace.over
         )
         yield f"best {trace.figure.replace('_', ' ')} of the safe ones: {there}"
-    for name, (low, high) in safe_ranges(trace).items():
+    for name, (low, high) in _safe_ranges(trace).items():
         yield f"safe: {name} {value_text(low)} to {value_text(high, trace.units[name])}"
     present = [f"{name} {value_text(*figure)}" for name, figure in _present(trace).items()]
     if present:
@@ -105,7 +105,7 @@ def variations_summary(trace: Trace) -> dict[str, Any]:
         ),
         "safe": {
             "count": int(trace.columns["safe"].sum()),
-            "ranges": {name: list(ends) for name, ends in safe_ranges(trace).items()},
+            "ranges": {name: list(ends) for name, ends in _safe_ranges(trace).items()},
         },
         "present": {name: {"value": value, "unit": unit} for name, (value, unit) in _present(trace).items()},
     }

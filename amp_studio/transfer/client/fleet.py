@@ -19,7 +19,7 @@ from .parameters import download_file, sha256
 from .record import record_look
 from .verification import ImageComparison, verify_at
 
-MAX_AT_ONCE = 16
+_MAX_AT_ONCE = 16
 """Controls with which is exchanged at once; the others wait."""
 
 T = TypeVar("T")
@@ -87,7 +87,7 @@ def with_each(
 
     if stop_on_failure:
         return [one(address) for address in addresses]
-    with ThreadPoolExecutor(min(MAX_AT_ONCE, len(addresses)), thread_name_prefix="control") as pool:
+    with ThreadPoolExecutor(min(_MAX_AT_ONCE, len(addresses)), thread_name_prefix="control") as pool:
         return list(pool.map(one, addresses))
 
 

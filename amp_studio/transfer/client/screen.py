@@ -10,9 +10,9 @@ from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, Pr
 from amp_studio.transfer.links import Endpoint, Link, LinkError, connect
 from amp_studio.transfer.status import ControlStatus
 
-ANSWER = 3.0
+_ANSWER = 3.0
 """s"""
-LONGEST_ANSWER = 1 << 18
+_LONGEST_ANSWER = 1 << 18
 """bytes"""
 _STATUS = TypeAdapter(ControlStatus)
 
@@ -35,13 +35,13 @@ class ScreenReader:
             raise NoConnectionError(f"no connection to the screen of the control ({error})", "") from None
 
     def _line(self, link: Link) -> bytes:
-        answer, end = b"", time.monotonic() + ANSWER
+        answer, end = b"", time.monotonic() + _ANSWER
         while not answer.endswith(b"\n"):
             left = end - time.monotonic()
             if left <= 0:
-                raise ControlSilentError(f"the screen of the control shows nothing for {ANSWER:g} s", "")
+                raise ControlSilentError(f"the screen of the control shows nothing for {_ANSWER:g} s", "")
             answer += link.read(left)
-            if len(answer) > LONGEST_ANSWER:
+            if len(answer) > _LONGEST_ANSWER:
                 raise ProtocolMismatchError("what answers is no screen of an emulated control", "")
         return answer
 

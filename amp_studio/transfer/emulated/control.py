@@ -28,8 +28,8 @@ from .memory import Memory
 from .record import Identity, StateError, is_answer, load_json, load_record, to_json, written
 from .staging import PendingDownload, Staging
 
-ACTIVE, PREVIOUS, OUTGOING, INTENT = ("active.img", "previous.img", "outgoing.img", "commit.json")
-CAPACITY = 1 << 20  # bytes
+_ACTIVE, _PREVIOUS, _OUTGOING, _INTENT = ("active.img", "previous.img", "outgoing.img", "commit.json")
+_CAPACITY = 1 << 20  # bytes
 
 
 class Control:
@@ -49,7 +49,7 @@ class Control:
         *,
         estop: bool | None = None,
         autostart: bool | None = None,
-        capacity: int = CAPACITY,
+        capacity: int = _CAPACITY,
         accept: Callable[[bytes], object] | None = None,
     ) -> None:
         self.identity = identity
@@ -135,7 +135,7 @@ class Control:
         """
         self._need_estop("change its image")
         changed = change(self._active)
-        self.memory.replace(ACTIVE, changed)
+        self.memory.replace(_ACTIVE, changed)
         self._activate(changed)
         self._record.remember(self._digest)
         self._remember(restart_needed=True, changed_at_control=True)
@@ -147,7 +147,7 @@ class Control:
         if in_estop:
             self._need_estop("change it on line")
         changed = change(self._active)
-        self.memory.replace(ACTIVE, changed)
+        self.memory.replace(_ACTIVE, changed)
         self._activate(changed)
         self._record.remember(self._digest)
         self._remember()
@@ -240,13 +240,13 @@ class Control:
         fault = "unknown reason"
         try:
             self.memory.sync(pending.part)
-            self.memory.replace(OUTGOING, self._active)
-            self.memory.replace(INTENT, to_json(intent))
-            self.memory.move(pending.part, ACTIVE)
+            self.memory.replace(_OUTGOING, self._active)
+            self.memory.replace(_INTENT, to_json(intent))
+            self.memory.move(pending.part, _ACTIVE)
         except OSError as error:
             fault = error.strerror or str(error)
         # Whatever went wrong above: what is now in active.img is what the control contains.
-        self._activate(self.memory.read(ACTIVE) or b"")
+        self._activate(self.memory.read(_ACTIVE) or b"")
         if self._digest != pending.sha256:
             self._forget_intent()
             raise RefusalError(Code.STORAGE, f"the control cannot store the image ({fault})")
@@ -261,29 +261,29 @@ class Control:
         record.remember(self._digest)
         with contextlib.suppress(OSError):
             record.save(self.memory)
-            if OUTGOING in self.memory.names():
-                self.memory.move(OUTGOING, PREVIOUS)
+            if _OUTGOING in self.memory.names():
+                self.memory.move(_OUTGOING, _PREVIOUS)
             self._forget_intent()
 
     def _forget_intent(self) -> None:
         # One that cannot be removed does no harm: the digest of active.img decides.
         with contextlib.suppress(OSError):
-            self.memory.remove(INTENT)
+            self.memory.remove(_INTENT)
 
     # -- small parts -------------------------------------------------------------------------------
 
     def _boot(self, initial: bytes, estop: bool | None, autostart: bool | None) -> None:
         """Read the memory, finish or forget a commit that was under way, and start; raises StateError."""
         # All is read before anything is written: a memory that is refused stays as it is.
-        active = self.memory.read(ACTIVE)
+        active = self.memory.read(_ACTIVE)
         self._record = load_record(self.memory, self.identity)
-        intent = load_json(self.memory, INTENT)
+        intent = load_json(self.memory, _INTENT)
         if intent is not None and not (isinstance(intent.get("to"), str) and is_answer(intent.get("answer"))):
-            raise StateError(f"{self.memory.folder / INTENT} is damaged")
+            raise StateError(f"{self.memory.folder / _INTENT} is damaged")
         self._staging = Staging(self.memory)
         self.memory.clear_temporaries()
         if active is None:
-            self.memory.replace(ACTIVE, initial)
+            self.memory.replace(_ACTIVE, initial)
             active = initial
         self._activate(active)
         self._record.remember(self._digest)

@@ -29,20 +29,20 @@ from .panel import OperatorPanel, PlainPanel, ScreenPanel, Start, TimedPanel
 from .responder import CHUNK, WINDOW, Responder
 from .screen import open_screen
 
-RESTART_SECONDS = 0.5
-SLICE = 0.05  # seconds between two looks at the operator's commands
+_RESTART_SECONDS = 0.5
+_SLICE = 0.05  # seconds between two looks at the operator's commands
 CLIENT_SILENCE = 5.0  # seconds without a whole frame after which another client may take the control over
-UNREAD_LIMIT = 0.2  # seconds for which a client that reads no answers may keep all others waiting
+_UNREAD_LIMIT = 0.2  # seconds for which a client that reads no answers may keep all others waiting
 LINES = 8  # open at once; beyond them the one that was opened first and does not have the control is cut
 PIECE = 2_048  # bytes of one client that are worked on before the next client has a turn
-COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
-COMMANDS_A_TURN = 16
+_COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
+_COMMANDS_A_TURN = 16
 LONGEST_COMMAND = 4_096  # bytes
 LONGEST_LINE = 300  # characters the operator sees of what another program has sent
 
 Patch = Callable[[bytes, str, str], bytes]
 
-COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
+_COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
 
 
 class Caller:
@@ -80,7 +80,7 @@ class Emulator:
         panel: OperatorPanel | None = None,
         faults: Faults | None = None,
         screen: Callable[[], None] = lambda: None,
-        restart_seconds: float = RESTART_SECONDS,
+        restart_seconds: float = _RESTART_SECONDS,
         window: int = WINDOW,
         chunk: int = CHUNK,
         say: Callable[[str], None] = print,
@@ -101,7 +101,7 @@ class Emulator:
         self._chunk = chunk
         self._show = say
         self._screen = screen
-        self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
+        self._commands: queue.Queue[str] = queue.Queue(_COMMANDS_WAITING)
         self._callers: list[Caller] = []  # in the order in which they came
         self._holder: Caller | None = None
         self._has_quit = False
@@ -150,12 +150,12 @@ class Emulator:
 
     def _admit(self) -> None:
         """Take the next line, and cut those that are in its way."""
-        link = self._listener.accept(0 if self._callers else SLICE)
+        link = self._listener.accept(0 if self._callers else _SLICE)
         if link is None:
             return
         # A window of answers has room in any line: one that is full is not being read.
         if isinstance(link, TcpLink):
-            link.write_limit = UNREAD_LIMIT
+            link.write_limit = _UNREAD_LIMIT
         responder = Responder(self._control, window=self._window, chunk=self._chunk)
         newest = Caller(self._line.wrap(link), responder, self._clock())
         others = [caller for caller in self._callers if caller is not self._holder]
@@ -170,7 +170,7 @@ class Emulator:
             return
         waited_for = self._holder or self._callers[-1]
         try:
-            data = caller.link.read(SLICE if caller is waited_for else 0)
+            data = caller.link.read(_SLICE if caller is waited_for else 0)
             for start in range(0, len(data), PIECE):
                 self._answer(caller, data[start : start + PIECE])
                 self._execute()
@@ -223,15 +223,15 @@ class Emulator:
             self._report(self._restarted)
             self._started()
             return
-        caller = self._listener.accept(min(left, SLICE))
+        caller = self._listener.accept(min(left, _SLICE))
         if caller is not None:
             caller.close()
-            self._sleep(min(left, SLICE))
+            self._sleep(min(left, _SLICE))
 
     # -- the operator ------------------------------------------------------------------------------
 
     def _execute(self) -> None:
-        for _ in range(COMMANDS_A_TURN):
+        for _ in range(_COMMANDS_A_TURN):
             if self._commands.empty():
                 return
             line = self._commands.get().strip()
@@ -299,7 +299,7 @@ class Emulator:
             case _:
                 answer = self._panel.operate(self._control, verb, rest)
                 if answer is None:
-                    words = ", ".join(filter(None, (COMMANDS, self._panel.words)))
+                    words = ", ".join(filter(None, (_COMMANDS, self._panel.words)))
                     raise ValueError(f"{quoted(line)} is no command: {words}")
                 return answer
         return visible(line)
@@ -327,7 +327,7 @@ def serve(
     panel: OperatorPanel | None = None,
     faults: Faults | None = None,
     screen: Endpoint | None = None,
-    restart_seconds: float = RESTART_SECONDS,
+    restart_seconds: float = _RESTART_SECONDS,
     commands: Iterable[str] | None = None,
     say: Callable[[str], None] | None = None,
     stop: threading.Event | None = None,

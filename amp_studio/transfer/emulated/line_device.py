@@ -25,10 +25,10 @@ from .faults import Faults, FaultyLine, die, read_faults
 from .memory import Memory
 from .screen import open_screen
 
-SLICE = 0.02  # seconds a turn waits for bytes
+_SLICE = 0.02  # seconds a turn waits for bytes
 STEP = 0.001  # seconds of the machine that are stepped at least: a step for each character costs more
 PIECE = 256  # bytes that are worked on before the operator has a turn
-COMMANDS_WAITING = 256
+_COMMANDS_WAITING = 256
 
 
 class LineDevice(Protocol):
@@ -50,7 +50,7 @@ class LineDevice(Protocol):
 
 
 @runtime_checkable
-class SetLineDevice(Protocol):
+class _SetLineDevice(Protocol):
     """A device to which it matters how the client has set its end of the line."""
 
     def line_set(self, baud: int, stop: int) -> None:
@@ -66,7 +66,7 @@ class TimedDevice(Protocol):
 
 
 @runtime_checkable
-class ScreenDevice(Protocol):
+class _ScreenDevice(Protocol):
     """A device whose screen others can read."""
 
     def screen(self) -> ControlStatus:
@@ -113,7 +113,7 @@ class DeviceService:
         self._show = say
         self._screen = screen
         self._stop = stop or threading.Event()
-        self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
+        self._commands: queue.Queue[str] = queue.Queue(_COMMANDS_WAITING)
         self._link: Link | None = None
         self._port: Link | None = None
         """The line itself, under its faults."""
@@ -141,7 +141,7 @@ class DeviceService:
             self._device.advance(passed)
         self._screen()
         self._execute()
-        caller = self._listener.accept(0 if self._link else SLICE)
+        caller = self._listener.accept(0 if self._link else _SLICE)
         if caller is not None:
             self._drop()
             self._port, self._link = caller, self._line.wrap(caller)
@@ -152,8 +152,8 @@ class DeviceService:
             answer = self._device.answer()
             if answer:
                 self._link.write(answer)
-            data = self._link.read(0 if answer else SLICE)
-            if isinstance(self._port, PtyLink) and isinstance(self._device, SetLineDevice):
+            data = self._link.read(0 if answer else _SLICE)
+            if isinstance(self._port, PtyLink) and isinstance(self._device, _SetLineDevice):
                 self._device.line_set(*self._port.client_settings())
             for start in range(0, len(data), PIECE):
                 self._device.receive(data[start : start + PIECE])
@@ -162,7 +162,7 @@ class DeviceService:
             self._drop()
         except Exception as error:  # a fault of the device itself: another client may do better
             self._drop()
-            self._show(f"the line was cut: {type(error).__name__}: {one_line(str(error))}")
+            self._show(f"the line was cut: {type(error).__name__}: {_one_line(str(error))}")
 
     def _drop(self) -> None:
         if self._link is not None:
@@ -181,7 +181,7 @@ class DeviceService:
                         raise ValueError(f"a command has {LONGEST_COMMAND} bytes at most")
                     self._show(self._device.operate(line))
                 except (ValueError, OSError) as error:
-                    self._show(f"refused: {one_line(str(error))}")
+                    self._show(f"refused: {_one_line(str(error))}")
 
 
 def serve_device(
@@ -207,7 +207,7 @@ def serve_device(
         listener = listen(place)
         stack.callback(listener.close)
         print_line(f"listening on {listener.endpoint}")
-        status = device.screen if isinstance(device, ScreenDevice) else None
+        status = device.screen if isinstance(device, _ScreenDevice) else None
         screen = open_screen(options.screen, status, print_line, stack)
         service = DeviceService(device, listener, faults=faults, say=print_line, stop=stop, screen=screen)
 
@@ -237,7 +237,7 @@ def _arm(memory: Memory, faults: Faults) -> None:
     memory.on_step = step
 
 
-def one_line(text: str) -> str:
+def _one_line(text: str) -> str:
     """Return a text, some of which may be a stranger's, as one short line that steers no terminal."""
     printable = visible(text[: LONGEST_LINE + 1])
     return printable if len(printable) <= LONGEST_LINE else printable[:LONGEST_LINE] + " …"

@@ -15,7 +15,7 @@ from pathlib import Path
 from amp_studio.files import write_all
 from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file
 
-TEMPORARY = ".tmp"
+_TEMPORARY = ".tmp"
 LARGEST = 1 << 26
 """Bytes of a file, as of an image in an exchange."""
 
@@ -51,7 +51,7 @@ class Memory:
         """Give a file new content: after a crash at any step it contains the old content or the new,
         whole.
         """
-        temporary = self.folder / (name + TEMPORARY)
+        temporary = self.folder / (name + _TEMPORARY)
         try:
             self.on_step(f"write {temporary.name}")
             temporary.unlink(missing_ok=True)  # whatever was put there is not written to
@@ -98,7 +98,7 @@ class Memory:
     def clear_temporaries(self) -> None:
         """Remove what an interrupted ``replace`` has left."""
         for name in self.names():
-            if name.endswith(TEMPORARY):
+            if name.endswith(_TEMPORARY):
                 self.remove(name)
 
     @contextlib.contextmanager

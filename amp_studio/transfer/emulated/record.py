@@ -13,7 +13,7 @@ from amp_studio.transfer.house import Committed, Flags
 from .memory import Memory
 
 RECORD = "control.json"
-REMEMBERED = 100  # digests of images a control has contained
+_REMEMBERED = 100  # digests of images a control has contained
 LAST = (1 << 32) - 1  # the greatest number of a start that the wire can carry
 
 
@@ -55,7 +55,7 @@ class Record:
     def remember(self, sha256: bytes) -> None:
         """Remember that the control contains an image with this digest."""
         digest = sha256.hex()
-        self.images = [*(d for d in self.images if d != digest), digest][-REMEMBERED:]
+        self.images = [*(d for d in self.images if d != digest), digest][-_REMEMBERED:]
 
     def has_contained(self, sha256: bytes) -> bool:
         """Whether the control has contained this image, so that it may be given back whatever it is."""

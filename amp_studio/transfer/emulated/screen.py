@@ -17,8 +17,8 @@ from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, liste
 from amp_studio.transfer.status import ActiveFault, AxisStatus, ControlStatus, known_fault
 from amp_studio.transfer.ways import SCREEN
 
-KNOWN_STATES = ("homed", "moving")
-LONGEST_QUESTION = 64  # bytes without an end of line after which a client is cut off
+_KNOWN_STATES = ("homed", "moving")
+_LONGEST_QUESTION = 64  # bytes without an end of line after which a client is cut off
 
 
 class ScreenAxis(Protocol):
@@ -43,7 +43,7 @@ class ScreenAxis(Protocol):
         """Code and message; None for no alarm."""
 
 
-class ScreenLine:
+class _ScreenLine:
     """One client at a time that looks at the screen; a new one takes the line over."""
 
     def __init__(self, listener: Listener, status: Callable[[], ControlStatus]) -> None:
@@ -64,7 +64,7 @@ class ScreenLine:
             *lines, self._question = self._question.split(b"\n")
             if lines:  # asked twice at once, one answer shows all there is
                 self._link.write(json.dumps(asdict(self._status())).encode() + b"\n")
-            if len(self._question) > LONGEST_QUESTION:
+            if len(self._question) > _LONGEST_QUESTION:
                 self.close()
         except LinkError:
             self.close()
@@ -94,7 +94,7 @@ def open_screen(
         return lambda: None
     listener = listen(replace(place, protocol=SCREEN))
     stack.callback(listener.close)
-    line = ScreenLine(listener, status)
+    line = _ScreenLine(listener, status)
     stack.callback(line.close)
     show(f"screen at {listener.endpoint}")
     return line.turn
@@ -111,7 +111,7 @@ def screen_status(family: str, name: str, state: str, axes: Iterable[ScreenAxis]
 def _axis(axis: ScreenAxis) -> AxisStatus:
     states = ("homed" if axis.is_homed else "not homed", *(("moving",) if axis.is_busy else ()))
     figures = axis.position, axis.following_error, axis.velocity
-    return AxisStatus(axis.letter, *figures, axis.unit, states, KNOWN_STATES)
+    return AxisStatus(axis.letter, *figures, axis.unit, states, _KNOWN_STATES)
 
 
 def _fault(family: str) -> Callable[[ScreenAxis], ActiveFault | None]:

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from .memory import LARGEST, Memory
 from .record import StateError, load_json, to_json
 
-PREFIX = "staged-"
+_PREFIX = "staged-"
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class PendingDownload:
     @property
     def part(self) -> str:
         """The file its bytes are collected in."""
-        return f"{PREFIX}{self.transfer.hex()}.part"
+        return f"{_PREFIX}{self.transfer.hex()}.part"
 
     @property
     def is_sound(self) -> bool:
@@ -35,7 +35,7 @@ class PendingDownload:
     @property
     def record_name(self) -> str:
         """The file it is written down in."""
-        return f"{PREFIX}{self.transfer.hex()}.json"
+        return f"{_PREFIX}{self.transfer.hex()}.json"
 
 
 class Staging:
@@ -50,7 +50,7 @@ class Staging:
         self.pending: PendingDownload | None = None
         self.size = 0
         for name in memory.names():
-            if self.pending is None and name.startswith(PREFIX) and name.endswith(".json"):
+            if self.pending is None and name.startswith(_PREFIX) and name.endswith(".json"):
                 self.pending = self._load(name)
         if self.pending is not None:
             self.size = memory.size(self.pending.part)
@@ -113,5 +113,5 @@ class Staging:
             self.drop()
         wanted = {self.pending.record_name, self.pending.part} if self.pending is not None else set()
         for name in self._memory.names():
-            if name.startswith(PREFIX) and name not in wanted:
+            if name.startswith(_PREFIX) and name not in wanted:
                 self._memory.remove(name)

@@ -8,7 +8,7 @@ import re
 import time
 from pathlib import Path
 
-SUFFIX = ".transfer"
+_SUFFIX = ".transfer"
 LASTING = 7 * 24 * 3600.0  # seconds after which a download is not taken up again
 MAX_KEPT = 32  # kept at most, the newest
 
@@ -42,7 +42,7 @@ class BrokenTransfers:
         with contextlib.suppress(OSError):
             self._folder.mkdir(parents=True, exist_ok=True)
             self._path(what).write_text(transfer.hex(), encoding="ascii")
-            newest = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)
+            newest = sorted(self._folder.glob(f"*{_SUFFIX}"), key=lambda path: -path.stat().st_mtime)
             for path in newest[MAX_KEPT:]:
                 path.unlink()
 
@@ -52,7 +52,7 @@ class BrokenTransfers:
             self._path(what).unlink()
 
     def _path(self, what: bytes) -> Path:
-        return self._folder / f"{hashlib.sha256(what).hexdigest()[:32]}{SUFFIX}"
+        return self._folder / f"{hashlib.sha256(what).hexdigest()[:32]}{_SUFFIX}"
 
 
 class NoBrokenTransfers(BrokenTransfers):

@@ -30,9 +30,9 @@ _T = TypeVar("_T")
 
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this
-SLICE = 0.1  # seconds a pause may last before the cancel event is read again
+_SLICE = 0.1  # seconds a pause may last before the cancel event is read again
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
-SILENT_EVERY = 1.0  # seconds until he is notified again
+_SILENT_EVERY = 1.0  # seconds until he is notified again
 STOP_GRACE = 5.0  # seconds a commit is seen through after a stop was asked for
 
 ACTS_ON_GRBL = frozenset((0x03, 0x14, 0x18, 0x19, *b"!%~", *range(0x80, 0x100)))
@@ -248,7 +248,7 @@ class Connection:
         end = self.now() + seconds
         while (left := end - self.now()) > 0:
             self._poll()
-            self._sleep(min(left, SLICE))
+            self._sleep(min(left, _SLICE))
 
     def _poll(self) -> None:
         """Be called by everything that waits, at least every 0.1 s."""
@@ -258,7 +258,7 @@ class Connection:
         if self._until is not None and now >= self._until:
             raise OutOfTimeError
         silent = now - self._moved_at
-        if silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+        if silent >= SILENT_AFTER and now - self._notified_at >= _SILENT_EVERY:
             self._notified_at = now
             left = 0.0 if self._until is None else self._until - now
             self.notify(SILENT, round(silent), round(silent + left))

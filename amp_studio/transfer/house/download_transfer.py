@@ -25,7 +25,7 @@ from .refusals import error_of
 from .streaming import push
 from .transaction import Transaction
 
-ATTEMPTS = 3  # how often in a row a control may lose or spoil what is staged
+_ATTEMPTS = 3  # how often in a row a control may lose or spoil what is staged
 COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory
 COMMIT_TRIES = 2  # then the line may be the fault: the commit is asked for again on another
 ABORT_WAIT = 0.5  # seconds
@@ -112,7 +112,7 @@ class DownloadTransfer:
                     idle = 0 if further else idle + 1
                 else:
                     raise self._error(refusal) from None
-                if max(idle, corrupted) >= ATTEMPTS:
+                if max(idle, corrupted) >= _ATTEMPTS:
                     raise self._error(refusal) from None
                 self._nothing_replaced()
 
@@ -173,7 +173,7 @@ class DownloadTransfer:
     def _lose(self, offset: int) -> None:
         """The control has lost some of what was staged: send it again, but not for ever."""
         self._lost += 1
-        if self._lost > ATTEMPTS:
+        if self._lost > _ATTEMPTS:
             raise ProtocolMismatchError("the control loses again and again what was sent to it")
         self._reached = offset
         self._line.begin()

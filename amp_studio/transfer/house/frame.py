@@ -24,8 +24,8 @@ from dataclasses import dataclass
 MAX_PAYLOAD = 4_160  # bytes: a chunk of 4096 and its head
 HEAD = struct.Struct("<BH")
 CHECK = struct.Struct("<I")
-MAX_BODY = HEAD.size + MAX_PAYLOAD + CHECK.size
-MAX_ENCODED = MAX_BODY + MAX_BODY // 254 + 1
+_MAX_BODY = HEAD.size + MAX_PAYLOAD + CHECK.size
+MAX_ENCODED = _MAX_BODY + _MAX_BODY // 254 + 1
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,10 @@ def encode_frame(frame: Frame) -> bytes:
     return cobs_encode(body + CHECK.pack(zlib.crc32(body))) + b"\x00"
 
 
-def decode_frame(encoded: bytes) -> Frame | None:
+def _decode_frame(encoded: bytes) -> Frame | None:
     """Return the frame between two zero bytes, or None when it is damaged."""
     body = cobs_decode(encoded)
-    if body is None or not HEAD.size + CHECK.size <= len(body) <= MAX_BODY:
+    if body is None or not HEAD.size + CHECK.size <= len(body) <= _MAX_BODY:
         return None
     content, check = body[: -CHECK.size], body[-CHECK.size :]
     if CHECK.unpack(check)[0] != zlib.crc32(content):
@@ -81,7 +81,7 @@ class FrameDecoder:
             return None
         if not encoded:
             return None
-        frame = decode_frame(encoded)
+        frame = _decode_frame(encoded)
         if frame is None:
             self.bad_frames += 1
         return frame

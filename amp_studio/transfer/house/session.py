@@ -27,7 +27,7 @@ from .upload_transfer import UploadTransfer
 
 _T = TypeVar("_T")
 
-CLIENT = "AMP Studio (ODS)"
+_CLIENT = "AMP Studio (ODS)"
 """A length of name with which no length in the frame of a Hello is one of `connection.ACTS_ON_GRBL`."""
 RESTART_PAUSE = 0.02  # seconds between two calls to a control that restarts
 
@@ -52,7 +52,7 @@ class Session:
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
         random_bytes: Callable[[int], bytes] = os.urandom,
-        client: str = CLIENT,
+        client: str = _CLIENT,
         broken: BrokenTransfers | None = None,
     ) -> None:
         self._broken = broken or NoBrokenTransfers()

@@ -17,13 +17,13 @@ Done = Callable[[int], None]
 
 # What may be under way on a line of known rate, in seconds of its rate: more would only wait in buffers,
 # and a cancel would wait behind it.
-BACKLOG = 0.3
+_BACKLOG = 0.3
 
 # Bytes of an image that may be under way, whatever window a control offers.
 MAX_FLYING = 1 << 16
 
 # Answers in a row that bring nothing forward: a control that gives that many does not keep to the protocol.
-USELESS = 2_000
+_USELESS = 2_000
 
 
 def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> int:
@@ -33,7 +33,7 @@ def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> in
     offered = min(offered, MAX_FLYING // chunk)
     if bytes_per_second is None:
         return max(1, offered)
-    return max(1, min(offered, max(2, math.ceil(bytes_per_second * BACKLOG / chunk))))
+    return max(1, min(offered, max(2, math.ceil(bytes_per_second * _BACKLOG / chunk))))
 
 
 def push(transaction: Transaction, image: bytes, offset: int, chunk: int, limit: int, done: Done) -> None:
@@ -118,7 +118,7 @@ def _run(
                 raise RefusalError(message.code, message.text)
             forward = answer(number, message)
             useless += 1
-            if useless > USELESS:
+            if useless > _USELESS:
                 raise NoAnswerError
         if forward:
             missed = useless = 0

@@ -11,7 +11,7 @@ from .frame import FrameDecoder, encode_frame
 from .message import AnyMessage, Code, Message, RefusalError, Refused, pack, unpack
 from .retry_timer import RetryPolicy, RetryTimer
 
-SLICE = 0.1  # seconds a read may block before ``look`` is called again
+_SLICE = 0.1  # seconds a read may block before ``look`` is called again
 
 # An unnumbered refusal: the control turns the line away before it was asked anything.
 UNASKED = 0
@@ -71,7 +71,7 @@ class Transaction:
             left = end - self._clock()
             if left < 0:
                 return None
-            for frame in self._decoder.feed(self.link.read(min(left, SLICE))):
+            for frame in self._decoder.feed(self.link.read(min(left, _SLICE))):
                 try:
                     self._received.append((frame.sequence, unpack(frame)))
                 except RefusalError:

@@ -16,12 +16,12 @@ from .transaction import Transaction
 # An image is some hundred kilobytes of text at most; a control that states more is not understood rightly.
 MAX_IMAGE = 1 << 22  # bytes
 MAX_PIECES = 1 << 16
-ATTEMPTS = 3  # how often reading may be broken off by the control, start again, or end with another digest
+_ATTEMPTS = 3  # how often reading may be broken off by the control, start again, or end with another digest
 
 
 SLOW = 5.0  # seconds that a line of known rate may take for an image until only some of it is read back
-ONE_OF = 16  # pieces of which one is read back then
-MIN_PIECES = 6  # pieces that are read back at least
+_ONE_OF = 16  # pieces of which one is read back then
+_MIN_PIECES = 6  # pieces that are read back at least
 
 
 class UploadTransfer:
@@ -53,7 +53,7 @@ class UploadTransfer:
                 # On a serial line a control may have started again without the client's noticing.
                 size = self._opened[0].size if self._opened is not None else 0
                 idle = 0 if self._received() - before > size // STEPS else idle + 1
-                if refusal.code != Code.NO_UPLOAD or idle >= ATTEMPTS:
+                if refusal.code != Code.NO_UPLOAD or idle >= _ATTEMPTS:
                     raise error_of(refusal) from None
                 continue
             image = b"".join(self._pieces[at] for at in sorted(self._pieces))
@@ -62,7 +62,7 @@ class UploadTransfer:
                 return image
             self._opened, self._sent, self.sampled = None, None, None
             corrupted += 1
-            if corrupted >= ATTEMPTS:
+            if corrupted >= _ATTEMPTS:
                 raise ImageDamagedError("what the control sends does not have the digest it states")
 
     def _read(self, transaction: Transaction) -> UploadReady:
@@ -89,7 +89,7 @@ class UploadTransfer:
     def _begin(self, ready: UploadReady, chunk: int) -> None:
         """Read from the first byte on; what was read before is of another image."""
         self._begun += 1
-        if self._begun > 2 * ATTEMPTS:
+        if self._begun > 2 * _ATTEMPTS:
             raise ImageDamagedError("the image changes again and again while it is read")
         self._opened = (ready, chunk)
         self._pieces.clear()
@@ -108,7 +108,7 @@ class UploadTransfer:
         and some at random.
         """
         offsets = range(0, len(image), chunk)
-        count = min(len(offsets), max(MIN_PIECES, len(offsets) // ONE_OF))
+        count = min(len(offsets), max(_MIN_PIECES, len(offsets) // _ONE_OF))
         chance = random.Random(self._line.random(16))  # noqa: S311  # seeded by what the control cannot know
         inner = chance.sample(offsets[1:-1], max(0, count - 2))
         chosen = {*offsets[:1], *inner, *offsets[-1:]}

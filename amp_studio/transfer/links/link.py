@@ -13,7 +13,7 @@ from amp_studio.schema import visible
 
 from .endpoint import Endpoint
 
-LONGEST_SHOWN = 200
+_LONGEST_SHOWN = 200
 """Characters of an endpoint in a message; the name of a port by its maker and number has about 70."""
 
 
@@ -21,7 +21,7 @@ class LinkError(AmpStudioError, OSError):
     """A link that cannot be made or is gone: ``endpoint`` names it, ``what`` what happened."""
 
     def __init__(self, endpoint: Endpoint | str, what: str) -> None:
-        super().__init__(f"{visible(str(endpoint)[:LONGEST_SHOWN])}: {what}")
+        super().__init__(f"{visible(str(endpoint)[:_LONGEST_SHOWN])}: {what}")
         self.endpoint = endpoint
         self.what = what
 

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from .link import Link, LinkError
 
 GREETING = b"AMP-STUDIO-PASSWORD 1 "
-CHALLENGE = re.compile(rb"AMP-STUDIO-PASSWORD 1 ([0-9a-f]{32}) ([0-9a-f]{64})\n")
+_CHALLENGE = re.compile(rb"AMP-STUDIO-PASSWORD 1 ([0-9a-f]{32}) ([0-9a-f]{64})\n")
 PROOF = re.compile(rb"PROOF ([0-9a-f]{64}) ([0-9a-f]{64})\n")
 WELCOME = re.compile(rb"WELCOME ([0-9a-f]{64})\n")
 LATER = re.compile(rb"LATER ([0-9]{1,3})\n")
@@ -23,13 +23,13 @@ WRONG = b"WRONG\n"
 LONGEST = 256  # bytes of a line; the longest has 137
 
 BEGINNING = 0.5  # seconds after which what only begins like a challenge is none
-MAX_BYTES_KEPT = 65_536  # bytes that are written before anything has come from the other end
+_MAX_BYTES_KEPT = 65_536  # bytes that are written before anything has come from the other end
 ROUNDS = 200_000  # of PBKDF2: a tenth of a second for each guess of who has recorded a proof
 NO_TLS = bytes(32)
 """Takes in a proof the place of the digest of the server's certificate where there is no TLS."""
 
-LONGEST_DELAY = 32.0  # seconds between two guesses of one host
-HOSTS = 256  # whose wrong guesses are remembered, the latest
+_LONGEST_DELAY = 32.0  # seconds between two guesses of one host
+_HOSTS = 256  # whose wrong guesses are remembered, the latest
 
 
 class PasswordError(LinkError):
@@ -61,7 +61,7 @@ def prove(
     Returns what the control has sent behind its proof: a greeting of its protocol, for one.
     """
     challenge = _line(link, seconds, look)
-    match = CHALLENGE.fullmatch(challenge)
+    match = _CHALLENGE.fullmatch(challenge)
     if match is None:
         raise PasswordError(str(place), "it asks for no password, and one is set for it: nothing was sent")
     key, nonce = key_of(password, bytes.fromhex(match[1].decode())), secrets.token_hex(32).encode()
@@ -138,7 +138,7 @@ class GuardedLink:
 
     def write(self, data: bytes) -> None:
         """Write; until something has come from the other end, what was written is kept."""
-        if not self._is_settled and len(self._written) < MAX_BYTES_KEPT:
+        if not self._is_settled and len(self._written) < _MAX_BYTES_KEPT:
             self._written += data
         self._link.write(data)
 
@@ -185,7 +185,7 @@ class Gate:
                 True,
             )
         self._wrong.pop(host, None)
-        self._wrong[host] = count + 1, self._clock() + min(LONGEST_DELAY, 2.0 ** min(count - 1, 9))
-        if len(self._wrong) > HOSTS:
+        self._wrong[host] = count + 1, self._clock() + min(_LONGEST_DELAY, 2.0 ** min(count - 1, 9))
+        if len(self._wrong) > _HOSTS:
             self._wrong.pop(next(iter(self._wrong)))
         return WRONG, False

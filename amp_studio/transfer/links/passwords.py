@@ -14,7 +14,7 @@ from typing import Literal
 from .endpoint import Endpoint
 
 ENVIRONMENT = "AMP_STUDIO_PASSWORD"
-SERVICE = "amp-studio"
+_SERVICE = "amp-studio"
 """Under which the keyring has passwords, each with its address: ``keyring set amp-studio
 tcp://host:port``."""
 
@@ -78,7 +78,7 @@ def forget_password(endpoint: Endpoint) -> None:
     _known.entered.pop(place, None)
     if _from_keyring(place):
         try:
-            import_module("keyring").delete_password(SERVICE, place)
+            import_module("keyring").delete_password(_SERVICE, place)
         except Exception as error:  # each system's keyring has its own errors
             raise RuntimeError(f"The keyring does not delete the password of {place}: {error}") from error
     if os.environ.get(ENVIRONMENT):
@@ -93,7 +93,7 @@ def place_of(endpoint: Endpoint) -> str:
 
 def _from_keyring(place: str) -> str:
     try:
-        return import_module("keyring").get_password(SERVICE, place) or ""
+        return import_module("keyring").get_password(_SERVICE, place) or ""
     except ModuleNotFoundError:
         return ""
     # a keyring that is locked, broken or not there has no password for us; the control asks if it needs one

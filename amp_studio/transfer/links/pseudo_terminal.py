@@ -13,8 +13,8 @@ from .endpoint import Endpoint
 from .link import LinkError
 
 WRITE_LIMIT = 1.0  # seconds until bytes that are not read are lost, as on an unplugged cable
-READ_SIZE = 65_536
-LAST_READS = 16
+_READ_SIZE = 65_536
+_LAST_READS = 16
 
 
 class PtyLink:
@@ -34,7 +34,7 @@ class PtyLink:
         try:
             if not select.select([self._master], [], [], max(0.0, timeout))[0]:
                 return b""
-            return os.read(self._master, READ_SIZE)
+            return os.read(self._master, _READ_SIZE)
         except (OSError, ValueError) as error:
             raise LinkError(self._endpoint, str(error)) from None
 
@@ -100,8 +100,8 @@ class PtyListener:
         if self._link is not None and self._link.is_open:
             return None
         with contextlib.suppress(OSError):
-            for _ in range(LAST_READS):
-                os.read(self._master, READ_SIZE)  # what was sent while no control listened is lost
+            for _ in range(_LAST_READS):
+                os.read(self._master, _READ_SIZE)  # what was sent while no control listened is lost
         self._link = PtyLink(self.endpoint, self._master, self._slave)
         return self._link
 

@@ -19,18 +19,18 @@ from .tcp import TcpLink, connect_tcp
 from .telnet import DO, DONT, IAC, SB, SE, WILL, WONT, Negotiation, Option, TelnetData, TelnetReader
 
 BINARY, ECHO, SUPPRESS_GO_AHEAD, COM_PORT = 0, 1, 3, 44
-WANTED = (SUPPRESS_GO_AHEAD, BINARY, COM_PORT)
+_WANTED = (SUPPRESS_GO_AHEAD, BINARY, COM_PORT)
 """Telnet options that are asked for on both sides; without the last one there is no port."""
-ANSWER = 100  # a server answers command n with n + 100
+_ANSWER = 100  # a server answers command n with n + 100
 BAUD, DATA_BITS, PARITY, STOP_BITS, CONTROL, PURGE = 1, 2, 3, 4, 5, 12
-PARITIES = {"none": 1, "odd": 2, "even": 3, "mark": 4, "space": 5}
-STOPS = {1: 1, 2: 2, 1.5: 3}
-FLOWS = {"none": 1, "xonxoff": 2, "rtscts": 3}
-DTR_ON, RTS_ON = 8, 11
-RECEIVED, LEAVING = 1, 2  # which bytes a purge is of
+_PARITIES = {"none": 1, "odd": 2, "even": 3, "mark": 4, "space": 5}
+_STOPS = {1: 1, 2: 2, 1.5: 3}
+_FLOWS = {"none": 1, "xonxoff": 2, "rtscts": 3}
+_DTR_ON, _RTS_ON = 8, 11
+_RECEIVED, _LEAVING = 1, 2  # which bytes a purge is of
 
-NO_SERVER = "what answers there is no RFC 2217 server"
-NOT_SET = "the server does not set the port like this; another program may have it"
+_NO_SERVER = "what answers there is no RFC 2217 server"
+_NOT_SET = "the server does not set the port like this; another program may have it"
 CLOSED = "the server has closed the connection"
 
 
@@ -86,11 +86,11 @@ class Rfc2217Link:
 
     def agree(self, end: float) -> None:
         """Agree with the server that this is a port; raises LinkError."""
-        for option in WANTED:
+        for option in _WANTED:
             self._negotiate(WILL, option)
             self._negotiate(DO, option)
         self._await(
-            lambda: self._is_agreed, end, lambda: NO_SERVER if self._has_received else "no answer in time"
+            lambda: self._is_agreed, end, lambda: _NO_SERVER if self._has_received else "no answer in time"
         )
 
     def set_port(self, end: float, *, own_flow: bool) -> None:
@@ -100,24 +100,24 @@ class Rfc2217Link:
         wanted = {
             BAUD: settings.baud.to_bytes(4, "big"),
             DATA_BITS: bytes([settings.bits]),
-            PARITY: bytes([PARITIES[settings.parity]]),
-            STOP_BITS: bytes([STOPS[settings.stop]]),
-            CONTROL: bytes([FLOWS[flow]]),
+            PARITY: bytes([_PARITIES[settings.parity]]),
+            STOP_BITS: bytes([_STOPS[settings.stop]]),
+            CONTROL: bytes([_FLOWS[flow]]),
         }
         for command, value in wanted.items():
             self._set(command, value)
-        self._await(lambda: self._answers.keys() >= wanted.keys(), end, lambda: NOT_SET)
+        self._await(lambda: self._answers.keys() >= wanted.keys(), end, lambda: _NOT_SET)
         if any(self._answers[command] != value for command, value in wanted.items()):
-            raise LinkError(self._endpoint, NOT_SET)
+            raise LinkError(self._endpoint, _NOT_SET)
         # A port may be without DTR and RTS, and its server then answers nothing.
-        self._set(CONTROL, bytes([DTR_ON]))
+        self._set(CONTROL, bytes([_DTR_ON]))
         if flow != "rtscts":
-            self._set(CONTROL, bytes([RTS_ON]))
-        for which in (LEAVING, RECEIVED):
+            self._set(CONTROL, bytes([_RTS_ON]))
+        for which in (_LEAVING, _RECEIVED):
             self._early = b""
             self._answers.pop(PURGE, None)
             self._set(PURGE, bytes([which]))
-            self._await(lambda: PURGE in self._answers, end, lambda: NOT_SET)
+            self._await(lambda: PURGE in self._answers, end, lambda: _NOT_SET)
 
     def _await(self, is_there: Callable[[], bool], end: float, why_not: Callable[[], str]) -> None:
         """Read until something is there; data that comes before it is of an earlier use of the port."""
@@ -152,17 +152,17 @@ class Rfc2217Link:
         if asked.option == COM_PORT and asked.command in (DO, DONT):
             self._is_agreed = asked.command == DO
             if not self._is_agreed:
-                raise LinkError(self._endpoint, NO_SERVER)
+                raise LinkError(self._endpoint, _NO_SERVER)
         if asked.command == WILL:
-            self._negotiate(DO if asked.option in (*WANTED, ECHO) else DONT, asked.option)
+            self._negotiate(DO if asked.option in (*_WANTED, ECHO) else DONT, asked.option)
         elif asked.command == DO:
-            self._negotiate(WILL if asked.option in WANTED else WONT, asked.option)
+            self._negotiate(WILL if asked.option in _WANTED else WONT, asked.option)
 
     def _remember(self, option: Option) -> None:
         """Remember what the server answers to a setting."""
         kind, command, value = option.content[:1], option.content[1:2], option.content[2:]
-        if kind == bytes([COM_PORT]) and command and command[0] >= ANSWER:
-            self._answers.setdefault(command[0] - ANSWER, value)
+        if kind == bytes([COM_PORT]) and command and command[0] >= _ANSWER:
+            self._answers.setdefault(command[0] - _ANSWER, value)
 
     def _negotiate(self, command: int, option: int) -> None:
         if (command, option) not in self._sent:

@@ -19,7 +19,7 @@ from .tls import TlsLink, is_ready, tls_message
 
 WAITING = 16  # callers at once that are not let in yet; beyond them one of the host that has most
 TIME_TO_ENTER = 10.0  # seconds
-SLICE = 0.02  # seconds between two looks at those who wait
+_SLICE = 0.02  # seconds between two looks at those who wait
 
 
 Entering = tuple[TcpLink, float, Generator[Link | None]]
@@ -49,7 +49,7 @@ class SecuredListener:
         end = time.monotonic() + timeout
         while True:
             left = max(0.0, end - time.monotonic())
-            wait = min(left, SLICE) if self._entering else left
+            wait = min(left, _SLICE) if self._entering else left
             for _ in range(WAITING):
                 caller = self._listener.accept(wait)
                 if caller is None:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import ssl
 
-SHORTEST_PASSWORD = 8
-LONGEST_PASSWORD = 1_024
+_SHORTEST_PASSWORD = 8
+_LONGEST_PASSWORD = 1_024
 _LARGEST_FILE = 1 << 20  # bytes of a certificate or a password file
 
 
@@ -39,9 +39,9 @@ def read_password(path: Path) -> str:
         password = content.partition(b"\n")[0].rstrip(b"\r").decode()
     except UnicodeDecodeError:
         raise ValueError(f"{path}: the first line is no text in UTF-8") from None
-    if not SHORTEST_PASSWORD <= len(password) <= LONGEST_PASSWORD:
+    if not _SHORTEST_PASSWORD <= len(password) <= _LONGEST_PASSWORD:
         raise ValueError(
-            f"{path}: the first line must be a password of {SHORTEST_PASSWORD} characters or more"
+            f"{path}: the first line must be a password of {_SHORTEST_PASSWORD} characters or more"
         )
     return password
 
@@ -86,7 +86,7 @@ def fingerprint_of(certificate: Path) -> str:
     return hashlib.sha256(ssl.PEM_cert_to_DER_cert(text[begin:end])).hexdigest()
 
 
-def is_public(host: str) -> bool:
+def _is_public(host: str) -> bool:
     """Whether others than this computer reach what listens at a host."""
     import ipaddress
 
@@ -101,7 +101,7 @@ def exposure(host: str, *, has_tls: bool, has_password: bool) -> str:
     """Return a sentence about what others can do to a control that listens at a host; "" where they
     cannot.
     """
-    if not is_public(host) or (has_tls and has_password):
+    if not _is_public(host) or (has_tls and has_password):
         return ""
     if not has_password:
         missing = "a password" if has_tls else "TLS and a password"

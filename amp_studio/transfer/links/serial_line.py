@@ -17,21 +17,21 @@ from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
 from .serial_settings import Flow, Parity
 
-SLICE = (
+_SLICE = (
     0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
 )
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
 FLOW_LIMIT = 60.0  # seconds the other end may hold the line by flow control
 MOMENT = 0.02  # seconds between two looks at what has not left yet
-STANDSTILL = 0.2  # seconds in which a line that is not stopped moves at least a byte
+_STANDSTILL = 0.2  # seconds in which a line that is not stopped moves at least a byte
 LOOK = 0.1  # seconds between two looks while the line takes nothing
 PIECE = 256  # bytes for which a port that reports room has some
-PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
-NO_PORT = "this is no serial port"
-GONE = "the port is gone: its adapter was unplugged or switched off"
-TAKEN = "another program has this port open"
+_PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
+_NO_PORT = "this is no serial port"
+_GONE = "the port is gone: its adapter was unplugged or switched off"
+_TAKEN = "another program has this port open"
 
-PARITY_LETTER: dict[Parity, str] = {"none": "N", "even": "E", "odd": "O", "mark": "M", "space": "S"}
+_PARITY_LETTER: dict[Parity, str] = {"none": "N", "even": "E", "odd": "O", "mark": "M", "space": "S"}
 """As pyserial names them."""
 
 
@@ -93,7 +93,7 @@ class SerialLink:
             waiting, end = -1, 0.0
             while self.is_open and self._flow_limit == FLOW_LIMIT and (left := self._port.out_waiting) > 0:
                 if left != waiting:
-                    waiting, end = left, time.monotonic() + STANDSTILL
+                    waiting, end = left, time.monotonic() + _STANDSTILL
                 if time.monotonic() >= end:
                     self._port.reset_output_buffer()
                     break
@@ -135,10 +135,10 @@ class SerialLink:
             return LinkError(self._endpoint, "the other end takes nothing more")
         if "closed the connection" in str(error):
             return LinkError(self._endpoint, "the server has closed the connection")
-        return LinkError(self._endpoint, GONE)
+        return LinkError(self._endpoint, _GONE)
 
 
-def port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
+def _port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
     """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to the
     reader.
     """
@@ -147,7 +147,7 @@ def port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
     return {
         "baudrate": settings.baud,
         "bytesize": settings.bits,
-        "parity": PARITY_LETTER[settings.parity],
+        "parity": _PARITY_LETTER[settings.parity],
         "stopbits": settings.stop,
         "xonxoff": flow == "xonxoff",
         "rtscts": flow == "rtscts",
@@ -167,10 +167,10 @@ def open_port(
     try:
         port = serial.Serial(
             endpoint.device,
-            timeout=SLICE,
+            timeout=_SLICE,
             write_timeout=WRITE_LIMIT,
             exclusive=True,
-            **port_settings(endpoint, own_flow),
+            **_port_settings(endpoint, own_flow),
         )
         _claim(port)
         port.reset_input_buffer()
@@ -188,7 +188,7 @@ def _need_port(endpoint: Endpoint) -> None:
     except (OSError, ValueError):
         return  # what is not there is reported when it is opened
     if not stat.S_ISCHR(kind.st_mode):
-        raise LinkError(endpoint, NO_PORT)
+        raise LinkError(endpoint, _NO_PORT)
 
 
 def _claim(port: Any) -> None:
@@ -197,7 +197,7 @@ def _claim(port: Any) -> None:
     Not from a pseudo terminal: its other end keeps it open,
     and would keep the mark of a program that was killed.
     """
-    if sys.platform == "win32" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
+    if sys.platform == "win32" or os.major(os.fstat(port.fileno()).st_rdev) in _PSEUDO_TERMINALS:
         return
     import fcntl
     import termios
@@ -245,15 +245,15 @@ def _message(error: Exception) -> str:
 # pyserial raises its own exception for most faults, on Windows without a number: then a part of its text is
 # all that distinguishes them.
 _MESSAGES: tuple[tuple[set[int], str, str], ...] = (
-    ({errno.ENOTTY}, f"({errno.ENOTTY},", NO_PORT),
-    (set(), "Could not configure port", f"{NO_PORT}, or one that cannot be set like this"),
+    ({errno.ENOTTY}, f"({errno.ENOTTY},", _NO_PORT),
+    (set(), "Could not configure port", f"{_NO_PORT}, or one that cannot be set like this"),
     ({errno.ENOENT}, "FileNotFoundError", "there is no such port"),
     (
         {errno.EACCES},
         "PermissionError",
         "this port may not be opened (no permission, or another program has it)",
     ),
-    ({errno.EAGAIN, errno.EBUSY}, "exclusively lock", TAKEN),
+    ({errno.EAGAIN, errno.EBUSY}, "exclusively lock", _TAKEN),
     ({errno.EIO, errno.ENXIO, errno.ENODEV}, "", "nothing is connected to this port"),
 )
 """Numbers of a fault, a part of its text, and what is shown for it; the first that fits."""

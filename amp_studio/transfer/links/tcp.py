@@ -17,12 +17,12 @@ from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
 
 WRITE_LIMIT = 3.0  # seconds the other end may take to make room before the line counts as gone
-BACKLOG = 64  # callers that the system lets wait: a few that say nothing must not keep others out
+_BACKLOG = 64  # callers that the system lets wait: a few that say nothing must not keep others out
 READ_SIZE = 65_536
-LAST_READS = 16  # how much of what will not be read is taken off a line that is closed
+_LAST_READS = 16  # how much of what will not be read is taken off a line that is closed
 
 # What a listening socket may report of one caller, or for the moment: it goes on listening.
-PASSING = {
+_PASSING = {
     errno.ECONNABORTED,
     errno.ECONNRESET,
     errno.EMFILE,
@@ -93,7 +93,7 @@ class TcpLink:
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_WR)
             # What came and was not read would make the system break the connection off, last answer and all.
-            for _ in range(LAST_READS):
+            for _ in range(_LAST_READS):
                 if not self._socket.recv(READ_SIZE):
                     break
         with contextlib.suppress(OSError):
@@ -114,7 +114,7 @@ class TcpListener:
         try:
             _reuse(self._socket)
             self._socket.bind(where)
-            self._socket.listen(BACKLOG)
+            self._socket.listen(_BACKLOG)
         except OSError as error:
             self._socket.close()
             raise LinkError(endpoint, tcp_message(error)) from None
@@ -126,7 +126,7 @@ class TcpListener:
                 return None
             connection, peer = self._socket.accept()
         except (OSError, ValueError) as error:
-            if isinstance(error, OSError) and error.errno in PASSING:
+            if isinstance(error, OSError) and error.errno in _PASSING:
                 time.sleep(min(timeout, SLICE))
                 return None
             raise LinkError(self.endpoint, tcp_message(error)) from None

@@ -94,7 +94,7 @@ def connect_tls(
 
 def _connected(endpoint: Endpoint, timeout: float) -> ssl.SSLSocket:
     """Return a connection whose certificate is checked, by an authority or by its fingerprint."""
-    context = client_context(endpoint)
+    context = _client_context(endpoint)
     plain = socket.create_connection((endpoint.host, endpoint.port), timeout=timeout)
     try:
         connection = context.wrap_socket(plain, server_hostname=endpoint.host)
@@ -112,7 +112,7 @@ def _connected(endpoint: Endpoint, timeout: float) -> ssl.SSLSocket:
     return connection
 
 
-def client_context(endpoint: Endpoint) -> ssl.SSLContext:
+def _client_context(endpoint: Endpoint) -> ssl.SSLContext:
     """Return what a certificate is checked by: the one fingerprint, a file of certificates (or both),
     or those of the system.
     """

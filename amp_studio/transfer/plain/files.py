@@ -19,7 +19,7 @@ from .ymodem import PlainFile, header_of, receive_batch, send_batch, without_pad
 
 SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
 RECEIVING = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
-IDLE = 5.0  # seconds without a byte that end a raw text
+_IDLE = 5.0  # seconds without a byte that end a raw text
 
 
 def protocol_of(address: str, protocol: str | None, known: Sequence[str]) -> tuple[Endpoint, str]:
@@ -84,7 +84,7 @@ def receive_files(
     protocol: str,
     *,
     tape: Tape | None = None,
-    idle: float = IDLE,
+    idle: float = _IDLE,
     patience: Patience | None = None,
     progress: Progress = quiet,
     cancel: threading.Event | None = None,

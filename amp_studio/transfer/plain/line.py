@@ -15,10 +15,10 @@ from amp_studio.transfer.progress import SILENT, Progress, quiet
 from .blocks import CAN, CANCEL
 
 LOOK = 0.1  # seconds between two looks at the cancel event
-SERIAL_QUIET, SERIAL_NOISE = 0.1, 0.3  # seconds, where no network delays what was sent
-STORED = 65_536  # bytes that are kept until they are read
+_SERIAL_QUIET, _SERIAL_NOISE = 0.1, 0.3  # seconds, where no network delays what was sent
+_STORED = 65_536  # bytes that are kept until they are read
 SILENT_AFTER = 1.8  # seconds without a byte until the person who waits is notified
-SILENT_EVERY = 1.0  # seconds until he is notified again
+_SILENT_EVERY = 1.0  # seconds until he is notified again
 
 
 class PlainFileError(TransferError):
@@ -71,12 +71,12 @@ class ByteLine:
         """Seconds after which a disturbed line has come to rest;
         on a serial line a gap is a fault much sooner.
         """
-        return min(self.patience.quiet, SERIAL_QUIET) if self._link.bytes_per_second else self.patience.quiet
+        return min(self.patience.quiet, _SERIAL_QUIET) if self._link.bytes_per_second else self.patience.quiet
 
     @property
     def noise(self) -> float:
         """Seconds for which an answer is waited for again that was disturbed."""
-        return min(self.patience.noise, SERIAL_NOISE) if self._link.bytes_per_second else self.patience.noise
+        return min(self.patience.noise, _SERIAL_NOISE) if self._link.bytes_per_second else self.patience.noise
 
     def get(self, count: int, seconds: float) -> bytes:
         """Return ``count`` bytes, or fewer where no further one has come for so long."""
@@ -121,7 +121,7 @@ class ByteLine:
         """Wait until a time."""
         while (left := when - self.now()) > 0:
             self._buffer += self._read(min(left, LOOK))
-            del self._buffer[:-STORED]
+            del self._buffer[:-_STORED]
             self.look()
 
     def cancel_transfer(self) -> None:
@@ -145,7 +145,7 @@ class ByteLine:
             raise PlainFileError("stopped")
         now = self.now()
         silent = now - self._received_at
-        if silent >= SILENT_AFTER and now - self._reported_at >= SILENT_EVERY:
+        if silent >= SILENT_AFTER and now - self._reported_at >= _SILENT_EVERY:
             self._reported_at = now
             self.progress(SILENT, round(silent), round(self.patience.stall))
 

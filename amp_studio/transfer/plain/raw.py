@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from .line import ByteLine, PlainFileError
 from .receiver import LARGEST
 
-PIECE_SECONDS = 0.2  # of a slow line between two looks
+_PIECE_SECONDS = 0.2  # of a slow line between two looks
 PIECE = 1_024
-FILLERS = b"\0\x7f"  # blank tape, and what was rubbed out on it
+_FILLERS = b"\0\x7f"  # blank tape, and what was rubbed out on it
 _END = re.compile(rb"[\r\n\0]%(?=[ \0]*[\r\n\0])")
 _LAST = re.compile(rb"[\r\n\0]%[ \0\x7f]*\Z")
 
@@ -31,7 +31,7 @@ class Tape:
 def punch(line: ByteLine, content: bytes, tape: Tape, rate: float | None) -> None:
     """Send a text; it has left this end at the return, and whether it has arrived is not confirmed."""
     data = punched(content, tape)
-    piece = PIECE if rate is None else max(1, min(PIECE, int(rate * PIECE_SECONDS)))
+    piece = PIECE if rate is None else max(1, min(PIECE, int(rate * _PIECE_SECONDS)))
     for at in range(0, len(data), piece):
         line.await_time(line.put(data[at : at + piece]))
         line.progress("send", min(at + piece, len(data)), len(data))
@@ -41,7 +41,7 @@ def punched(content: bytes, tape: Tape) -> bytes:
     """Return the tape of a text; a ``%`` that it has already is not doubled."""
     if tape.percent:
         end = b"\r\n" if b"\r\n" in content else b"\n"
-        if not content.lstrip(FILLERS + b" \r\n").startswith(b"%"):
+        if not content.lstrip(_FILLERS + b" \r\n").startswith(b"%"):
             content = b"%" + end + content
         if not re.search(rb"[\r\n]%[\s\0]*\Z", content):
             content += (b"" if content.endswith((b"\n", b"\r")) else end) + b"%" + end
@@ -71,7 +71,7 @@ def read_tape(line: ByteLine, tape: Tape, idle: float) -> bytes:
 
 def _without_fillers(got: bytes, tape: Tape, seconds: float) -> bytes:
     """Return a text without leader and trailer; raises PlainFileError where there is nothing else."""
-    text = got.strip(FILLERS + (tape.filler if tape.filler != b"\0" else b""))
+    text = got.strip(_FILLERS + (tape.filler if tape.filler != b"\0" else b""))
     if not text:
         raise PlainFileError(f"nothing has come for {seconds:g} s")
     return text

@@ -8,10 +8,10 @@ from enum import Enum, auto
 from .blocks import ACK, CAN, EOT, LENGTHS, NAK, WANT_CRC, decode_block
 from .line import ByteLine, PlainFileError
 
-TRIES = 20  # of one block
-CRC_REQUESTS = 4  # unanswered ones, after which checksums are asked for
+_TRIES = 20  # of one block
+_CRC_REQUESTS = 4  # unanswered ones, after which checksums are asked for
 LARGEST = 64 * 1024 * 1024  # bytes of all files of a transfer; what takes parameters has less
-LAST_ANSWERS = 5  # repetitions of the last message that are acknowledged once more
+_LAST_ANSWERS = 5  # repetitions of the last message that are acknowledged once more
 
 
 class Came(Enum):
@@ -54,7 +54,7 @@ class BlockReceiver:
         end, tries, silences = line.now() + (patience.start if is_first else patience.stall), 0, 0
         if is_first:
             line.put(self._request(silences))
-        while tries < TRIES and line.now() < end:
+        while tries < _TRIES and line.now() < end:
             came = self._next(patience.ask if is_first else patience.answer)
             if isinstance(came, tuple):
                 self._acknowledge(came[0], number)
@@ -90,7 +90,7 @@ class BlockReceiver:
     def finish(self) -> None:
         """Acknowledge the last message again where it is repeated: its acknowledgement was disturbed."""
         with contextlib.suppress(PlainFileError):  # everything is here, whatever becomes of the line
-            for _ in range(LAST_ANSWERS):
+            for _ in range(_LAST_ANSWERS):
                 if not self._line.get(1, self._line.patience.quiet):
                     return
                 self._line.wait_until_quiet()
@@ -98,7 +98,7 @@ class BlockReceiver:
 
     def _request(self, silences: int) -> bytes:
         """Return what asks for the first block; a sender that does not know CRC does not answer to C."""
-        if self._may_fall_back and self._crc and silences >= CRC_REQUESTS:
+        if self._may_fall_back and self._crc and silences >= _CRC_REQUESTS:
             self._crc = False
         return bytes([WANT_CRC if self._crc else NAK])
 
@@ -128,7 +128,7 @@ class BlockReceiver:
         if is_repeated:
             line.put(bytes([ACK]))
             return False
-        for _ in range(TRIES):
+        for _ in range(_TRIES):
             line.put(bytes([NAK]))
             came = line.get(1, line.patience.answer)
             if came == bytes([EOT]):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from .blocks import ACK, CAN, EOT, LONG, NAK, SHORT, WANT_CRC, encode_block
 from .line import ByteLine, PlainFileError
 
-TRIES = 20  # of one block
-EASY = 32  # short blocks after one that needed several tries; then long ones again
+_TRIES = 20  # of one block
+_EASY = 32  # short blocks after one that needed several tries; then long ones again
 
 
 class BlockSender:
@@ -46,7 +46,7 @@ class BlockSender:
     def send_block(self, number: int, content: bytes) -> None:
         """Send one block; raises PlainFileError."""
         tries = self._repeat(encode_block(number, content, crc=self._crc), f"block {number}")
-        self._easy = EASY if tries > 2 else max(0, self._easy - 1)
+        self._easy = _EASY if tries > 2 else max(0, self._easy - 1)
 
     def _length(self, left: int) -> int:
         """Return how much the next block takes: a long one while it pays, and no more padding than needed."""
@@ -60,7 +60,7 @@ class BlockSender:
         """
         line, late = self._line, False
         end = line.now() + line.patience.stall
-        for tries in range(1, TRIES + 1):
+        for tries in range(1, _TRIES + 1):
             if line.drop():
                 raise PlainFileError("the other end has given the transfer up")
             self.has_begun = True

@@ -11,8 +11,8 @@ from .line import ByteLine, PlainFileError
 from .receiver import BlockReceiver
 from .sender import BlockSender
 
-MAX_FILES = 100  # of one batch
-LONGEST_NAME = 100  # bytes: name, size and their ends fit into one short block
+_MAX_FILES = 100  # of one batch
+_LONGEST_NAME = 100  # bytes: name, size and their ends fit into one short block
 _UNSUITABLE = re.compile(r'[<>:"|?*\x00-\x1f\x7f]')
 
 
@@ -45,8 +45,8 @@ def receive_batch(line: ByteLine) -> list[PlainFile]:
         if not name:
             receiver.finish()
             return files
-        if len(files) == MAX_FILES:
-            raise PlainFileError(f"the other end sends more than {MAX_FILES} files")
+        if len(files) == _MAX_FILES:
+            raise PlainFileError(f"the other end sends more than {_MAX_FILES} files")
         content = receiver.receive(size)
         if size is None:
             files.append(without_padding(name, content))
@@ -59,8 +59,8 @@ def receive_batch(line: ByteLine) -> list[PlainFile]:
 def header_of(file: PlainFile) -> bytes:
     """Return what block 0 contains; raises PlainFileError for a name that does not fit."""
     name = file.name.encode()
-    if not 0 < len(name) <= LONGEST_NAME or 0 in name:
-        raise PlainFileError(f"a name of {len(name)} bytes cannot be sent: it has {LONGEST_NAME} at most")
+    if not 0 < len(name) <= _LONGEST_NAME or 0 in name:
+        raise PlainFileError(f"a name of {len(name)} bytes cannot be sent: it has {_LONGEST_NAME} at most")
     return (name + b"\0" + str(len(file.content)).encode() + b"\0").ljust(SHORT, b"\0")
 
 
@@ -79,7 +79,7 @@ def file_name(name: str) -> str:
     last = "".join(
         character if character.isprintable() else "_" for character in _UNSUITABLE.sub("_", last)
     ).strip(" .")
-    return last[:LONGEST_NAME] or "file"
+    return last[:_LONGEST_NAME] or "file"
 
 
 def without_padding(name: str, content: bytes) -> PlainFile:

@@ -42,9 +42,9 @@ _REFUSED = "refused: "
 """Begins the line of an emulated control that took no word."""
 STATE_ROOM = 152
 """Of the button in the tool bar for the name of a control and its state, in logical pixels."""
-STOPPING_MS = 50
+_STOPPING_MS = 50
 """Milliseconds after which it is looked again whether an exchange has stopped."""
-COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
+_COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
 class ControlDesk(Translated):
@@ -382,7 +382,7 @@ class ControlDesk(Translated):
 
         def look() -> None:
             if self.is_sending:
-                QTimer.singleShot(STOPPING_MS, self.window, look)
+                QTimer.singleShot(_STOPPING_MS, self.window, look)
                 return
             ends = [
                 f"{self._name_of(each.address)}: {text_of_end(each, self._name_of(each.address))}"
@@ -400,7 +400,7 @@ class ControlDesk(Translated):
         """
         workspace = self.window.workspace
         folder = workspace.path.parent if workspace is not None else Path()
-        if path := ask_to_open(self.window, self.tr("Restore"), folder, COPIES):
+        if path := ask_to_open(self.window, self.tr("Restore"), folder, _COPIES):
             self._offer_backup(path)
 
     def _offer_backup(self, path: Path) -> None:
@@ -409,7 +409,7 @@ class ControlDesk(Translated):
         from amp_studio.ui.control.session_words import ControlBackup
 
         copy = in_background(self.window, self.tr("Opening"), partial(open_copy, path))
-        check_copy(copy, path)
+        _check_copy(copy, path)
         if not self.is_shown:
             self.show("compare")
         self.page.show_backup(ControlBackup(copy, path))
@@ -486,7 +486,7 @@ def _away(session: ControlSession) -> str:
     return tr("connection lost") if session.has_answered else tr("not reached")
 
 
-def check_copy(copy: Copy, path: Path) -> None:
+def _check_copy(copy: Copy, path: Path) -> None:
     """Raise ValueError for a file with errors that is not a proven backup of a control."""
     if copy.file is None or copy.is_kept:
         return

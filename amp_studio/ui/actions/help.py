@@ -59,11 +59,11 @@ def report_problem(window: StudioWindow) -> None:
         with_machine = answer == yes
     near = Path.home() / "amp-studio-problem.txt"
     if path := ask_to_save(window, tr("Report a Problem"), near, "Text (*.txt)"):
-        write_atomic(path, problem_text(window, with_machine).encode(), keep_backup=False)
+        write_atomic(path, _problem_text(window, with_machine).encode(), keep_backup=False)
         window.show_status(tr("{path} written").format(path=path))
 
 
-def problem_text(window: StudioWindow, with_machine: bool) -> str:
+def _problem_text(window: StudioWindow, with_machine: bool) -> str:
     """Return the text of a report: versions, settings, the last fault;
     ``with_machine`` adds what may be of the machine.
     """

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 MOTION, TUNING, CHECK, TESTS, PROGRAM, LIVE = "motion", "tuning", "check", "tests", "program", "live"
 """The names of the pages."""
-MAX_VERSIONS = 5
+_MAX_VERSIONS = 5
 """Earlier versions of a file under which a program is run."""
 
 
@@ -163,7 +163,7 @@ def open_tests(window: PartsWindow) -> None:
 # -- tuning ------------------------------------------------------------------------
 
 
-def why_not_tuned(family: Family) -> str:
+def _why_not_tuned(family: Family) -> str:
     """Return why a family has no page for tuning; empty where it has one."""
     from amp_studio.calibration import compensation_of  # not needed at program start
 
@@ -176,7 +176,7 @@ def why_not_tuned(family: Family) -> str:
 def open_tuning(window: PartsWindow) -> None:
     """Show what is tuned at the machine; a family that has nothing to tune has the reason in its file."""
     page = window.page_in_front
-    if reason := why_not_tuned(page.workspace.file.schema.family):
+    if reason := _why_not_tuned(page.workspace.file.schema.family):
         page.bar.say(reason)
         return
     from amp_studio.ui.motion.tuning_page import TuningView
@@ -263,7 +263,7 @@ def open_program(window: PartsWindow) -> None:
 
         def earlier() -> list[SavedVersion]:
             document = workspace.document
-            return list(saved_versions(document.as_saved(), document.history(), MAX_VERSIONS))
+            return list(saved_versions(document.as_saved(), document.history(), _MAX_VERSIONS))
 
         return ProgramPage(workspace.file.copy, apply, earlier=earlier)
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 PARTS = ("amp_studio.pictures.ramps", "amp_studio.pictures.loop", "amp_studio.ui.pictures.page")
 """What the pictures need; the simulator's pieces take a fifth of a second."""
-LOAD_MS = 1500
+_LOAD_MS = 1500
 """Milliseconds after a file came to the front until they are loaded, beside the window."""
 
 
@@ -46,7 +46,7 @@ class Pictures(QObject):
         self.window = window
         self._loaded: set[str] = set()
         """The families whose pictures have been shown."""
-        self._early = single_shot(self, self._prepare, LOAD_MS)
+        self._early = single_shot(self, self._prepare, _LOAD_MS)
         window.tabs.current_changed.connect(lambda _: self._early.start())
 
     def _prepare(self) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QProcess, QTemporaryDir, QTimer, Signal
 
-PATIENCE_MS = 2000
+_PATIENCE_MS = 2000
 
 
 class EmulatedControl(QObject):
@@ -75,14 +75,14 @@ class EmulatedControl(QObject):
         self._stopping = True
         if self.is_running:
             self.send("quit")
-            QTimer.singleShot(PATIENCE_MS, self, self._kill)
-            if wait and not self._process.waitForFinished(PATIENCE_MS):
+            QTimer.singleShot(_PATIENCE_MS, self, self._kill)
+            if wait and not self._process.waitForFinished(_PATIENCE_MS):
                 self._kill()
 
     def _kill(self) -> None:
         if self._stopping and self.is_running:
             self._process.kill()
-            self._process.waitForFinished(PATIENCE_MS)
+            self._process.waitForFinished(_PATIENCE_MS)
 
     def _read(self) -> None:
         while self._process.canReadLine():

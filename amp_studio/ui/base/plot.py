@@ -40,15 +40,15 @@ from .scene_painter import ScenePainter, caption_fonts, paint_heading, panel_hea
 from .theme import colour, scheme
 from .translated import sentenced, unit_in_words
 
-LEFT, RIGHT, GAP = 70.0, 14.0, 6.0
+_LEFT, _RIGHT, _GAP = 70.0, 14.0, 6.0
 """Room in logical pixels beside the panels, and above the heading of each."""
 MIN_PANEL = 16.0
 """Height from which a curve is seen."""
-GRIP = 6.0
+_GRIP = 6.0
 """Distance within which a cursor is taken hold of."""
-MIN_SPAN = 1e-6
+_MIN_SPAN = 1e-6
 """Of the whole axis what is shown at least: the numbers beside it would be equal."""
-WHEEL = 0.8
+_WHEEL = 0.8
 """What is visible after a step of the wheel, of what was."""
 
 
@@ -207,12 +207,12 @@ class Plot(QWidget):
         if self._is_pointed:
             painter.setPen(QPen(colour("base"), 2))
             painter.setBrush(colour("sel"))
-        painter.drawEllipse(at, GRIP, GRIP)
+        painter.drawEllipse(at, _GRIP, _GRIP)
         size = painter.fontMetrics().boundingRect(name).size()
         # Where there is no room at the right it is at the left.
-        is_left = at.x() + GRIP + 4.0 + size.width() > self.width()
-        x = at.x() - GRIP - 4.0 - size.width() if is_left else at.x() + GRIP + 4.0
-        y = max(at.y() - GRIP, size.height() + 2.0)
+        is_left = at.x() + _GRIP + 4.0 + size.width() > self.width()
+        x = at.x() - _GRIP - 4.0 - size.width() if is_left else at.x() + _GRIP + 4.0
+        y = max(at.y() - _GRIP, size.height() + 2.0)
         if self._is_pointed:
             painter.fillRect(
                 QRectF(x - 2.0, y - size.height(), size.width() + 4.0, size.height() + 4.0), colour("base")
@@ -235,12 +235,12 @@ class Plot(QWidget):
         """Return where the reading of a moment is: in the heading of the last panel, behind its title; within
         the panel are its curves and limits.
         """
-        last, right = self._frames[-1], self.width() - RIGHT
+        last, right = self._frames[-1], self.width() - _RIGHT
         measure = QFontMetricsF(caption_fonts()[1])
         wide, high = measure.horizontalAdvance(reading) + 4.0, measure.height()
-        pieces = panel_heading(last.scene, LEFT, right)
+        pieces = panel_heading(last.scene, _LEFT, right)
         end = max(piece.x + measure.horizontalAdvance(piece.text) for piece in pieces)
-        left = max(end + 2.0 * GAP, min(last.at((at, 0.0))[0] - 0.5 * wide, right - wide))
+        left = max(end + 2.0 * _GAP, min(last.at((at, 0.0))[0] - 0.5 * wide, right - wide))
         return QRectF(left, last.top - 5.0 - measure.ascent(), wide, high)
 
     def _paint_scenes(self, painter: QPainter) -> None:
@@ -254,10 +254,10 @@ class Plot(QWidget):
     def _paint_below_each_other(self, painter: QPainter, scenes: Sequence[Scene]) -> None:
         """Paint scenes; the last ones are left out where all would have no room, and named below."""
         assert self.picture is not None
-        right, line = self.width() - RIGHT, QFontMetricsF(caption_fonts()[1]).height()
-        headings = [panel_heading(each, LEFT, right) if each.look == "panel" else [] for each in scenes]
+        right, line = self.width() - _RIGHT, QFontMetricsF(caption_fonts()[1]).height()
+        headings = [panel_heading(each, _LEFT, right) if each.look == "panel" else [] for each in scenes]
         heads = [
-            GAP + line * (1 + max((piece.line for piece in pieces), default=-1)) + 4.0 for pieces in headings
+            _GAP + line * (1 + max((piece.line for piece in pieces), default=-1)) + 4.0 for pieces in headings
         ]
         # Rings are lower than in print, where they have the whole of a page.
         shares = [min(scene.share, 2.0 * self.panels[0].share) for scene in scenes]
@@ -293,7 +293,7 @@ class Plot(QWidget):
             painter.setFont(caption_fonts()[0])
             painter.setPen(colour("dim"))
             text = self.tr("without room: {names}").format(names=", ".join(self.left_out))
-            painter.drawText(QPointF(LEFT, self.height() - 4.0), text)
+            painter.drawText(QPointF(_LEFT, self.height() - 4.0), text)
 
     def _paint_cursors(self, painter: QPainter) -> None:
         painter.setFont(caption_fonts()[0])
@@ -325,7 +325,7 @@ class Plot(QWidget):
         if not self._frames or not self._has_cursors:
             return None
         far = [abs(self._frames[0].at((place, 0.0))[0] - x) for place in self.cursors]
-        return far.index(min(far)) if min(far) <= GRIP else None
+        return far.index(min(far)) if min(far) <= _GRIP else None
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton and self._frames:
@@ -361,7 +361,7 @@ class Plot(QWidget):
             self.pointed.emit(*place.world(x, y))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        is_click = self._pressed is not None and abs(event.position().x() - self._pressed) < GRIP
+        is_click = self._pressed is not None and abs(event.position().x() - self._pressed) < _GRIP
         if is_click and not self._has_cursors and self._frames and not self._is_on_map:
             self.timed.emit(self._at_share(min(max(self._share_of(event.position().x()), 0.0), 1.0)))
         self._grip, self._is_on_map, self._pressed = None, False, None
@@ -373,7 +373,9 @@ class Plot(QWidget):
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Show less or more around the pointer."""
         if self._frames and event.angleDelta().y():
-            self._zoom_around(self._share_of(event.position().x()), WHEEL ** (event.angleDelta().y() / 120.0))
+            self._zoom_around(
+                self._share_of(event.position().x()), _WHEEL ** (event.angleDelta().y() / 120.0)
+            )
 
     def _zoom_around(self, share: float, times: float) -> None:
         share = min(max(share, 0.0), 1.0)
@@ -393,7 +395,7 @@ class Plot(QWidget):
         whole = self.picture.panels[0].x
         if low <= whole.low and high >= whole.high:
             return None
-        least = MIN_SPAN * (whole.high - whole.low) if not whole.log else MIN_SPAN * low
+        least = _MIN_SPAN * (whole.high - whole.low) if not whole.log else _MIN_SPAN * low
         low, high = max(low, whole.low), min(high, whole.high)
         return (low, high) if high - low > least else self.span
 
@@ -406,7 +408,7 @@ class Plot(QWidget):
             self.stepped.emit(*_MAP_STEPS[key])
             return
         way = {Qt.Key.Key_Left: -0.01, Qt.Key.Key_Right: 0.01}.get(key)
-        times = {Qt.Key.Key_Plus: WHEEL, Qt.Key.Key_Minus: 1.0 / WHEEL}.get(key)
+        times = {Qt.Key.Key_Plus: _WHEEL, Qt.Key.Key_Minus: 1.0 / _WHEEL}.get(key)
         way = way if self._has_cursors else None
         if self.picture is None or (way is None and times is None and key != Qt.Key.Key_Home):
             super().keyPressEvent(event)
@@ -438,10 +440,10 @@ def _has_figures_below(above: Scene | None) -> bool:
 
 
 def _place_of(scene: Scene, right: float, top: float, height: float) -> Placement:
-    width = max(right - LEFT - (BAR_ROOM if scene.cells else 0.0), 10.0)
+    width = max(right - _LEFT - (BAR_ROOM if scene.cells else 0.0), 10.0)
     if not scene.equal:
-        return Placement(scene, LEFT, top, width, height)
-    return Placement.equal_in(scene, LEFT, top, width, height)
+        return Placement(scene, _LEFT, top, width, height)
+    return Placement.equal_in(scene, _LEFT, top, width, height)
 
 
 def _shifted(

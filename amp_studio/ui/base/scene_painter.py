@@ -55,7 +55,7 @@ TOKENS: dict[ShapeSort, Token] = {
     "output": "warn",
     "before": "edge",
 }
-TEXT_TOKENS: dict[ShapeSort, Token] = {
+_TEXT_TOKENS: dict[ShapeSort, Token] = {
     "now": "sel",
     "error": "error",
     "dim": "dim",
@@ -66,10 +66,10 @@ TEXT_TOKENS: dict[ShapeSort, Token] = {
 
 RING, RING_LINE, SMALL = 6.6, 1.4, 3.2
 """px: how wide a single value is, its line, and how wide one of many is."""
-MAX_WIDE_POINTS, MAX_RIPPLE = 1000, 30.0
+_MAX_WIDE_POINTS, _MAX_RIPPLE = 1000, 30.0
 """Points of lines, and heights of its frame that a curve goes up and down, that are painted wider than a
 point: that takes ten times as long."""
-MAX_RINGS = 60
+_MAX_RINGS = 60
 """Values of a curve that are rings; more of them would lie on each other."""
 
 
@@ -82,7 +82,9 @@ class ScenePainter:
         self._caption, self._strong = caption_fonts()
         self.labels = painted_labels(place, size)
         # Qt strokes wide lines in software: a long path would take ten times as long for half a point more.
-        self._is_fine = sum(len(line.points) for line in place.scene.lines if not line.wide) > MAX_WIDE_POINTS
+        self._is_fine = (
+            sum(len(line.points) for line in place.scene.lines if not line.wide) > _MAX_WIDE_POINTS
+        )
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
 
@@ -160,7 +162,7 @@ class ScenePainter:
         # A point more than the frame: half of a line along its edge would be cut off.
         painter.setClipRect(self._inner().adjusted(-1, -1, 1, 1))
         if curve.dots:
-            paint_values(painter, _polygon(line), shade)
+            _paint_values(painter, _polygon(line), shade)
         else:
             if band is not None:
                 light = QColor(shade)
@@ -168,8 +170,8 @@ class ScenePainter:
                 painter.setPen(Qt.PenStyle.NoPen)
                 painter.setBrush(light)
                 painter.drawPolygon(_polygon(band))
-            pen = curve_pen(curve)
-            if float(abs(line[1:, 1] - line[:-1, 1]).sum()) > MAX_RIPPLE * self._place.height:
+            pen = _curve_pen(curve)
+            if float(abs(line[1:, 1] - line[:-1, 1]).sum()) > _MAX_RIPPLE * self._place.height:
                 pen.setWidthF(1.0)
             painter.setPen(pen)
             painter.drawPolyline(_polygon(line))
@@ -272,7 +274,7 @@ class ScenePainter:
         measure = QFontMetricsF(named)
         base = QPointF(box.left(), box.top() + measure.ascent())
         painter.setFont(named)
-        painter.setPen(colour(TEXT_TOKENS.get(label.sort, "text")))
+        painter.setPen(colour(_TEXT_TOKENS.get(label.sort, "text")))
         # A name begins with the number of its parameter, which is none to be read in groups.
         text = (with_figures if label.strong else with_groups)(label.text)
         painter.drawText(base, text)
@@ -305,7 +307,7 @@ def _mixed(share: float) -> QColor:
     )
 
 
-def curve_pen(curve: Curve) -> QPen:
+def _curve_pen(curve: Curve) -> QPen:
     """Return how a curve is drawn: a dashed one with a pattern that is as long as in print."""
     pen = QPen(colour(TOKENS[curve.sort]), 1.5)
     pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
@@ -314,12 +316,12 @@ def curve_pen(curve: Curve) -> QPen:
     return pen
 
 
-def paint_values(painter: QPainter, at: QPolygonF, shade: QColor) -> None:
+def _paint_values(painter: QPainter, at: QPolygonF, shade: QColor) -> None:
     """Paint single measured values: rings, or small points where many are beside each other; in few strokes,
     for a page that follows a control is painted five times a second.
     """
     strokes = ((RING, shade), (RING - 2.0 * RING_LINE, colour("base")))
-    for size, fill in strokes if at.size() <= MAX_RINGS else ((SMALL, shade),):
+    for size, fill in strokes if at.size() <= _MAX_RINGS else ((SMALL, shade),):
         pen = QPen(fill, size)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
@@ -349,9 +351,9 @@ def paint_heading(painter: QPainter, pieces: Sequence[Heading], top: float) -> N
         if piece.curve is not None:
             if piece.curve.dots:
                 sample = QPolygonF([QPointF(x + 0.5 * SAMPLE, base - 4.0)])
-                paint_values(painter, sample, colour(TOKENS[piece.curve.sort]))
+                _paint_values(painter, sample, colour(TOKENS[piece.curve.sort]))
             else:
-                painter.setPen(curve_pen(piece.curve))
+                painter.setPen(_curve_pen(piece.curve))
                 painter.drawLine(QPointF(x, base - 4.0), QPointF(x + SAMPLE, base - 4.0))
             x += SAMPLE + 6.0
         painter.setFont(bold if piece.strong else plain)

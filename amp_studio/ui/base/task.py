@@ -24,7 +24,7 @@ _T = TypeVar("_T")
 PATIENCE_MS = 300
 """Milliseconds that work may last before a progress dialog is shown."""
 
-TURN_S = 0.00005
+_TURN_S = 0.00005
 """Seconds after which a thread lets the window have its turn. Python's own 5 ms, paid several times while a
 frame is painted, would be seen."""
 STOPPING = "Stopping at the next safe point …"
@@ -57,7 +57,7 @@ class Task(QThread):
         # Qt ends the process where a QThread is collected while it runs: the set keeps it until its end.
         Task.running.add(self)
         collect_by_timer()
-        sys.setswitchinterval(TURN_S)
+        sys.setswitchinterval(_TURN_S)
         self.start()
 
     def _discard(self) -> None:

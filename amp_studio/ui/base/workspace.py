@@ -41,7 +41,7 @@ from .single_shot import single_shot
 from .task import Task
 from .translated import worded
 
-JOURNAL_MS = 500
+_JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
 
 
@@ -242,7 +242,7 @@ class Workspace(QObject):
         if (
             not self._journal.isActive()
         ):  # not restarted by the next edit, so that continued typing loses no more than this
-            self._journal.start(JOURNAL_MS)
+            self._journal.start(_JOURNAL_MS)
         self.follow(addresses)
 
     def follow(self, addresses: list[Address]) -> None:
@@ -283,7 +283,7 @@ class Workspace(QObject):
             run(lambda: self.document.save("studio"))
         except BaseException:
             # What could not be saved is unsaved work as before.
-            self._journal.start(JOURNAL_MS)
+            self._journal.start(_JOURNAL_MS)
             raise
         finally:
             self.is_saving = False
@@ -318,7 +318,7 @@ class Workspace(QObject):
     def _keep_unsaved(self) -> None:
         """Write the journal in a thread: a disk takes as long for it as the window for several keys."""
         if self._keeping is not None:
-            self._journal.start(JOURNAL_MS)
+            self._journal.start(_JOURNAL_MS)
         elif self.may_edit:
             write = self.document.unsaved_writer()
             self._keeping = Task(lambda *_: write())

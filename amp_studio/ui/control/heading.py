@@ -7,7 +7,7 @@ from PySide6.QtGui import QFontMetrics
 
 from amp_studio.ui.forms.elided_label import ElidedLabel
 
-MIN_FILE = 72
+_MIN_FILE = 72
 """Pixels that the name of the file keeps beside the place of the control."""
 
 
@@ -29,7 +29,7 @@ class ControlHeading(ElidedLabel):
             return self.text()
         file, way, control = self._sides
         end = f"  {way}  {control}"
-        if room - letters.horizontalAdvance(end) < min(MIN_FILE, letters.horizontalAdvance(file)):
+        if room - letters.horizontalAdvance(end) < min(_MIN_FILE, letters.horizontalAdvance(file)):
             end = f"  {way}  {control.partition(' (')[0]}"
         left = max(room - letters.horizontalAdvance(end), 0)
         return letters.elidedText(file, Qt.TextElideMode.ElideMiddle, left) + end

@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from amp_studio.ui.base.theme import colour
 
-HEIGHT, TRACK, THUMB = 18, 6, 4
+_HEIGHT, _TRACK, _THUMB = 18, 6, 4
 """px: of the bar, of its track, and how wide the mark of the value is."""
-BEYOND = 0.06
+_BEYOND = 0.06
 """Share of the bar on each side for a value that is past its limit."""
 
 
@@ -34,19 +34,19 @@ class LimitBar(QWidget):
         return (self._value - self._low) / (self._high - self._low)
 
     def sizeHint(self) -> QSize:
-        return QSize(200, HEIGHT)
+        return QSize(200, _HEIGHT)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # Qt's name
         painter, width, middle = QPainter(self), float(self.width()), 0.5 * self.height()
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(colour("line"))
-        painter.drawRect(QRectF(0.0, middle - 0.5 * TRACK, width, float(TRACK)))
-        inside = width * (1.0 - 2.0 * BEYOND)
+        painter.drawRect(QRectF(0.0, middle - 0.5 * _TRACK, width, float(_TRACK)))
+        inside = width * (1.0 - 2.0 * _BEYOND)
         painter.setBrush(colour("error"))
-        for place in (BEYOND * width, (1.0 - BEYOND) * width):
+        for place in (_BEYOND * width, (1.0 - _BEYOND) * width):
             painter.drawRect(QRectF(place - 0.5, 2.0, 1.0, self.height() - 4.0))
-        share = min(max(self.share, -BEYOND), 1.0 + BEYOND)
+        share = min(max(self.share, -_BEYOND), 1.0 + _BEYOND)
         painter.setBrush(colour("text" if 0.0 <= self.share <= 1.0 else "error"))
-        place = BEYOND * width + share * inside
-        painter.drawRect(QRectF(place - 0.5 * THUMB, 2.0, float(THUMB), self.height() - 4.0))
+        place = _BEYOND * width + share * inside
+        painter.drawRect(QRectF(place - 0.5 * _THUMB, 2.0, float(_THUMB), self.height() - 4.0))
         painter.end()

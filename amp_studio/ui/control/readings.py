@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 PERIOD = 0.2
 """s from one question to the next, at least."""
-KEPT = 150
+_KEPT = 150
 """Readings of an axis that stay in the picture: half a minute."""
-HISTORY = 50
+_HISTORY = 50
 """Events that are remembered."""
 
 
@@ -95,7 +95,7 @@ class AxisReadings:
         }
         for name, value in figures.items():
             if value is not None:
-                self.signals.setdefault(name, deque(maxlen=KEPT)).append((now, value))
+                self.signals.setdefault(name, deque(maxlen=_KEPT)).append((now, value))
 
     def picture(self) -> Picture | None:
         """Return what the control shows as dots; nothing is known between two readings."""
@@ -143,7 +143,7 @@ class EventReadings:
 
     def _record(self, text: str) -> None:
         self.events.insert(0, text)
-        del self.events[HISTORY:]
+        del self.events[_HISTORY:]
 
 
 def lamps_of(axis: AxisStatus) -> dict[str, bool]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from .session import ControlSession
 
-STAGES = ("identify", "keep", "download", "verify", "commit")
+_STAGES = ("identify", "keep", "download", "verify", "commit")
 _OF_PROGRESS = {"keep": 1, "download": 2, "commit": 2, "restart": 3, "verify": 3, "upload": 1}
 """Stage of an exchange -> the step that is under way."""
 
@@ -76,7 +76,7 @@ class ExchangeSteps(QWidget):
                 self.tr("What happened") if phase in ("done", "failed") else self.tr("What will happen")
             )
             # Where it failed it stays where it got to, so that the ticks show how far it was.
-            self._at = len(STAGES) if phase == "done" else self._at if phase == "failed" else -1
+            self._at = len(_STAGES) if phase == "done" else self._at if phase == "failed" else -1
 
     def _show_texts(self, texts: Sequence[tuple[str, str]], *, is_sent: bool) -> None:
         for n, (first, second) in enumerate(self._lines):

@@ -22,7 +22,7 @@ _CONTENTS = re.compile(r"```\{toctree\}\n(.*?)```", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->\s*", re.DOTALL)
 
 
-def manual_folder() -> Path:
+def _manual_folder() -> Path:
     """Return where the pages are: inside the installed package, or at the top of the checkout."""
     package = Path(__file__).resolve().parents[2]
     inside = package / "docs"
@@ -60,7 +60,7 @@ class ManualWindow(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Manual"))
         fit_to_screen(self, 1040, 720)
-        self.folder = manual_folder()
+        self.folder = _manual_folder()
         self.search = QLineEdit()
         self.search.setPlaceholderText(self.tr("Search the pages"))
         self.search.setAccessibleName(self.tr("Search the pages of the manual"))

@@ -119,7 +119,7 @@ class SettingsDialog(QDialog):
         if key == "language":
             self._window.settings.keep_language(answer)
         elif key == "theme":
-            choose_theme(self._window, answer)
+            _choose_theme(self._window, answer)
         elif self._window.workspace is not None and answer in self._window.workspace.file.schema.family.units:
             self._window.workspace.show_in(answer)
 
@@ -199,7 +199,7 @@ class SettingsDialog(QDialog):
         QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
 
 
-def choose_theme(window: StudioWindow, choice: str) -> None:
+def _choose_theme(window: StudioWindow, choice: str) -> None:
     """Show every window in a theme at once, and keep the choice."""
     theme = as_choice(choice)
     apply_style(theme)

@@ -16,7 +16,7 @@ _CODE = Qt.ItemDataRole.UserRole + 1
 _WORDS = re.compile(r"[\W_]+")
 _NO_RANK = 4
 """Rank of a row that does not fit."""
-PAUSE_MS = 1_000
+_PAUSE_MS = 1_000
 """Milliseconds after which a typed letter begins a new word."""
 
 
@@ -79,7 +79,7 @@ class ChoiceBox(QComboBox):
 
     def _typed_so_far(self, letter: str) -> tuple[str, list[int]]:
         """Return what is typed with this letter, and the rows that it is for, the best first."""
-        again = bool(self._typed) and (self.view().isVisible() or self._since.elapsed() < PAUSE_MS)
+        again = bool(self._typed) and (self.view().isVisible() or self._since.elapsed() < _PAUSE_MS)
         typed = self._typed + letter if again else letter
         found = self.rows_of(typed)
         if not found and again and set(folded(typed)) == {folded(letter)}:  # asked for the next one
@@ -143,7 +143,7 @@ class ChoiceBox(QComboBox):
     def showPopup(self) -> None:
         """Open the list with what fits the letters that were typed just now."""
         super().showPopup()
-        if self._typed and self._since.isValid() and self._since.elapsed() < PAUSE_MS:
+        if self._typed and self._since.isValid() and self._since.elapsed() < _PAUSE_MS:
             self._show_only(set(self.rows_of(self._typed)) or None)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

@@ -8,7 +8,12 @@ from PySide6.QtWidgets import QWidget
 
 REACH = 12.0
 """How far from a handle the mouse takes hold of it, in logical pixels."""
-ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
+_ARROWS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Up: (0, 1),
+    Qt.Key.Key_Down: (0, -1),
+}
 
 
 class HandleSpot(QWidget):
@@ -32,8 +37,8 @@ class HandleSpot(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         key, text = Qt.Key(event.key()), event.text()
         shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-        if key in ARROWS and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self.stepped.emit(*ARROWS[key], 10 if shift else 1)
+        if key in _ARROWS and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.stepped.emit(*_ARROWS[key], 10 if shift else 1)
         elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
             self.removed.emit()
         elif key == Qt.Key.Key_Escape:

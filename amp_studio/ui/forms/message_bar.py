@@ -15,7 +15,7 @@ from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, se
 from amp_studio.ui.base.translated import without_number
 
 MessageKind = Literal["information", "advice", "warning", "error"]
-READING_MS = 8_000
+_READING_MS = 8_000
 """Milliseconds after which an information leaves by itself;
 anything else stays until it is answered or closed."""
 
@@ -68,7 +68,7 @@ class MessageBar(QFrame):
         self.show()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
         if kind == "information" and not answers:
-            self._hide_timer.start(READING_MS)
+            self._hide_timer.start(_READING_MS)
         else:
             self._hide_timer.stop()
 

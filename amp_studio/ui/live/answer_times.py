@@ -10,9 +10,9 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.single_shot import single_shot
 
-SILENT_MS = 2000
+_SILENT_MS = 2000
 """Milliseconds without an answer after which the figures are grey."""
-RATED = 10
+_RATED = 10
 """Readings from which the rate is counted."""
 
 
@@ -27,8 +27,8 @@ class AnswerTimes(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.last: datetime | None = None
-        self._times: deque[float] = deque(maxlen=RATED)
-        self._silence = single_shot(self, self.silent.emit, SILENT_MS)
+        self._times: deque[float] = deque(maxlen=_RATED)
+        self._silence = single_shot(self, self.silent.emit, _SILENT_MS)
         self._clock = QTimer(self)
         self._clock.setInterval(1000)
         self._clock.timeout.connect(self.show_age)
@@ -57,7 +57,7 @@ class AnswerTimes(QObject):
             return
         age = max((datetime.now(UTC).astimezone() - self.last).total_seconds(), 0.0)
         text = self.tr("{age} s old").format(age=written(f"{age:.1f}" if age < 10.0 else f"{age:.0f}"))
-        if self._clock.isActive() and age < 0.001 * SILENT_MS and len(self._times) > 1:
+        if self._clock.isActive() and age < 0.001 * _SILENT_MS and len(self._times) > 1:
             rate = (len(self._times) - 1) / max(self._times[-1] - self._times[0], 1e-3)
             text = self.tr("{rate} readings a second").format(
                 rate=written(f"{rate:.0f}" if rate >= 1.0 else f"{rate:.1f}")

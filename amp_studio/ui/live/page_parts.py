@@ -23,7 +23,7 @@ from .sign import LiveSign
 from .status_panel import NARROW, WIDE, LiveStatusPanel
 from .write_frame import WriteFrame
 
-ROOMY = 1200
+_ROOMY = 1200
 """Width of a window with room for all words."""
 FEW_ROWS, MIN_ROWS, MAX_ROWS, LOW = 4, 5, 8, 680
 """Rows that have room at least, at most in a page below so many pixels, and in a higher one."""
@@ -74,7 +74,7 @@ class LivePageParts(PageOfFile):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Leave the rows the room of the words in a small window."""
         super().resizeEvent(event)
-        is_narrow = self.window().width() < ROOMY
+        is_narrow = self.window().width() < _ROOMY
         rows = MAX_ROWS if self.height() > LOW else MIN_ROWS
         self.rows.setMaximumHeight(COLUMN_HEAD + rows * ROW + 2)
         self.rows.setMinimumHeight(COLUMN_HEAD + FEW_ROWS * ROW)

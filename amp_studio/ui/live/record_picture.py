@@ -17,9 +17,9 @@ from amp_studio.ui.base.translated import tr, unit_in_words
 
 SIGNALS = ("following_error", "position", "velocity")
 """In the order in which they are drawn, the first above."""
-SPARSE = 50.0
+_SPARSE = 50.0
 """Readings in a second below which they are dots: nothing is known between them."""
-FAR = 1.6
+_FAR = 1.6
 """A limit below this multiple of the largest error is drawn."""
 
 
@@ -63,7 +63,7 @@ def record_picture(record: SignalRecord, fired: float | None, trace: Trace | Non
 
 def _panel(record: SignalRecord, signal: str, marks: tuple[NamedPlace, ...], trace: Trace | None) -> Scene:
     time, values, unit = record.time, record.signals[signal], record.units.get(signal, "")
-    sparse = len(time) - 2 < SPARSE * float(time[-1] - time[0])
+    sparse = len(time) - 2 < _SPARSE * float(time[-1] - time[0])
     curves = [Curve(tr("machine"), time, values, "now", dots=sparse)]
     levels: list[NamedPlace] = []
     if trace is not None and f"recorded_{signal}" in trace.columns:
@@ -81,7 +81,7 @@ def _panel(record: SignalRecord, signal: str, marks: tuple[NamedPlace, ...], tra
 
 def _levels(trace: Trace, most: float, factor: float) -> list[NamedPlace]:
     """Return the limits of the error that are near it, on both sides."""
-    near = {name: level for name, (level, _) in trace.limits.items() if level and level <= FAR * most}
+    near = {name: level for name, (level, _) in trace.limits.items() if level and level <= _FAR * most}
     return [
         NamedPlace(name.replace("_", " ") if sign > 0.0 else "", sign * level / factor)
         for name, level in near.items()

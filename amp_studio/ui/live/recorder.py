@@ -45,9 +45,9 @@ from .record_picture import SIGNALS, move_of, record_picture, signals_of
 if TYPE_CHECKING:
     from amp_studio.transfer import AxisStatus
 
-AFTER_FAULT = 0.5
+_AFTER_FAULT = 0.5
 """s that are recorded after a fault: what led to it is kept."""
-DRAWN_EVERY = 2
+_DRAWN_EVERY = 2
 """Readings from one picture to the next while nothing is recorded: to paint one costs more than to read."""
 _FIELD, _TABLE = 52, 300
 _MIN_PLOT = 80
@@ -196,7 +196,7 @@ class LiveRecording(QWidget):
             self._recorder.fire(seconds)
         # The stop of the axis after a fault belongs to the record, which then ends by itself.
         if is_fault and self._recorder.has_fired and self._ends_at is None:
-            self._ends_at = seconds + AFTER_FAULT
+            self._ends_at = seconds + _AFTER_FAULT
         if self._recorder.is_done or (self._ends_at is not None and seconds >= self._ends_at):
             self.stop()
         elif self._recorder.count > 1:
@@ -206,7 +206,7 @@ class LiveRecording(QWidget):
     def _show_recent(self, *, is_first: bool) -> None:
         """Show the last readings while no record is made or kept; not each one, which would only paint."""
         self._count += 1
-        is_due = self._count % DRAWN_EVERY == 0 or is_first
+        is_due = self._count % _DRAWN_EVERY == 0 or is_first
         if self.record is None and is_due and (picture := self._recent.picture()):
             self._show(picture)
             self._show_footer()

@@ -83,7 +83,7 @@ class LiveRows(QTableWidget):
         self.addresses = [
             found
             for each in parameters
-            if (found := address_in(file, each, axis)) is not None
+            if (found := _address_in(file, each, axis)) is not None
             and file.evaluation.state(found).state != "hidden"
         ]
         self.setRowCount(len(self.addresses))
@@ -174,7 +174,7 @@ class LiveRows(QTableWidget):
             super().keyPressEvent(event)
 
 
-def address_in(file: ParameterFile, parameter: Parameter, axis: str) -> Address | None:
+def _address_in(file: ParameterFile, parameter: Parameter, axis: str) -> Address | None:
     """Return where a parameter is seen for an axis: in it, or in the whole control; None for one of another
     kind (points of a table).
     """

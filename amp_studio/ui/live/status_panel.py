@@ -36,9 +36,9 @@ from .sign import LiveSign
 if TYPE_CHECKING:
     from amp_studio.transfer import ActiveFault, AxisStatus, ControlStatus
 
-EVENTS = 8
+_EVENTS = 8
 """Events that are shown."""
-PLACES = 4
+_PLACES = 4
 """Decimals of a figure, and digits from which they are grouped."""
 WIDE, NARROW = 320, 284
 """Widths of the panel."""
@@ -203,7 +203,7 @@ class LiveStatusPanel(QWidget):
         raw = " ".join(filter(None, (axis.raw if axis else "", status.raw)))
         self._set(self.raw, raw)
         words = [
-            f"{sentenced(key, self._family)} {value_text(value)}" for key, value in status.values.items()
+            f"{sentenced(key, self._family)} {_value_text(value)}" for key, value in status.values.items()
         ]
         self._set(self.values, ", ".join([status.state, *words] if status.state else words))
         self._set(self.notes, "\n".join(sentenced(note, self._family) for note in status.assumptions))
@@ -225,7 +225,7 @@ class LiveStatusPanel(QWidget):
         unit = unit_in_words(axis.unit) if axis else ""
         figures = (axis.position, axis.following_error, axis.velocity) if axis else (None,) * 3
         for name, value in zip(_FIGURES, figures, strict=True):
-            self.figures[name].setText("–" if value is None else value_text(value))
+            self.figures[name].setText("–" if value is None else _value_text(value))
             self.units[name].setText("" if value is None else f"{unit}/s" if name == "velocity" else unit)
             # A control that never reports a speed has no row for it; before the first reading
             # all rows are there, so that the panel does not jump.
@@ -242,7 +242,7 @@ class LiveStatusPanel(QWidget):
             self.bars[name].show_value(value, low, high)
             title = {"position": self.tr("Travel"), "error": self.tr("Following error")}[name]
             for label, text in zip(
-                self.bar_words[name], (f"{title} {value_text(low)}", value_text(high)), strict=True
+                self.bar_words[name], (f"{title} {_value_text(low)}", _value_text(high)), strict=True
             ):
                 label.setText(text)
         for part in (self.bars[name], *self.bar_words[name]):
@@ -277,7 +277,7 @@ class LiveStatusPanel(QWidget):
         shade = colour("dim").name()
         lines = (
             f'<span style="color:{shade}">{html.escape(time)}</span>&nbsp; {html.escape(text)}'
-            for time, _, text in (event.partition(" ") for event in happened.events[:EVENTS])
+            for time, _, text in (event.partition(" ") for event in happened.events[:_EVENTS])
         )
         self._set(self.events, "<br>".join(lines))
         self._before.setVisible(bool(happened.events))
@@ -320,11 +320,11 @@ class LiveStatusPanel(QWidget):
         return html.escape(sentenced(text, self._family))
 
 
-def value_text(value: float | str) -> str:
+def _value_text(value: float | str) -> str:
     """Return a figure of a reading as it is shown."""
     if isinstance(value, str):
         return value
-    text = f"{round(value, PLACES):.{PLACES}f}".rstrip("0").rstrip(".")
+    text = f"{round(value, _PLACES):.{_PLACES}f}".rstrip("0").rstrip(".")
     # A minus in front of 0 would come and go at rest.
     return written("0" if text in ("-0", "") else text)
 

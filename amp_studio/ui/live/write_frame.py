@@ -24,7 +24,7 @@ from .sign import LiveSign
 
 _FIELD = 104
 """Width of the field in logical pixels."""
-COARSE = 10
+_COARSE = 10
 """Steps of one with Shift."""
 
 
@@ -37,7 +37,7 @@ class ShownValue(NamedTuple):
     is_turned: bool
 
 
-class ValueField(QLineEdit):
+class _ValueField(QLineEdit):
     """A value to be written: arrows turn it, Ctrl+Enter writes it, Ctrl+Backspace puts it back."""
 
     stepped = Signal(int)
@@ -56,7 +56,7 @@ class ValueField(QLineEdit):
         way = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}.get(Qt.Key(event.key()))
         modifiers = event.modifiers()
         if way is not None:
-            self.stepped.emit(way * (COARSE if modifiers & Qt.KeyboardModifier.ShiftModifier else 1))
+            self.stepped.emit(way * (_COARSE if modifiers & Qt.KeyboardModifier.ShiftModifier else 1))
         elif _is_back(event):
             self.back_requested.emit()
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and (
@@ -93,7 +93,7 @@ class WriteFrame(QFrame):
         sign = LiveSign("pencil-simple", "chg")
         self.head, self.name = QLabel(), ElidedLabel()
         self.head.setFont(font("small", own=True))
-        self.field = ValueField()
+        self.field = _ValueField()
         self.field.setFixedWidth(_FIELD)
         self.field.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.field.setAccessibleName(self.tr("Value to be written"))

@@ -45,7 +45,7 @@ def parameter_files() -> str:
     return tr("Parameter files (*.amp);;All files (*)")
 
 
-COPIES = "Copies of a control (*.img *.before-*.amp);;All files (*)"
+_COPIES = "Copies of a control (*.img *.before-*.amp);;All files (*)"
 AskPath = Callable[[str, Path], Path | None]
 WriteNew = Callable[[Path, Callable[[], Document]], None]
 
@@ -154,7 +154,7 @@ class Comparisons(QObject):
         return None if path is None else sources.from_copy(sources.other_file, path)
 
     def _ask_copy(self, sources: MergeSources) -> ReadSource | None:
-        path = ask_to_open(self.window, self.tr("Compare with a copy"), sources.folder, COPIES)
+        path = ask_to_open(self.window, self.tr("Compare with a copy"), sources.folder, _COPIES)
         return None if path is None else sources.from_copy(sources.kept_copy, path)
 
     def _ask_control(self, sources: MergeSources) -> ReadSource | None:

@@ -14,13 +14,13 @@ from amp_studio.ui.base.theme import RADIUS, SMALL_ICON, TWO_LINE_ROW, colour, f
 from .columns import BASE, NAME, RESULT, SIDES, A, B
 from .sources import MergeSource, Offer, ReadSource
 
-LETTERS = {BASE: "0", A: "A", B: "B"}
+_LETTERS = {BASE: "0", A: "A", B: "B"}
 """Column -> what its source is called."""
 _BOX = 18
 _GAP = 10
 
 
-class SourceButton(QToolButton):
+class _SourceButton(QToolButton):
     """Shows a source in two lines; a click offers the others. ``offers`` is asked each time."""
 
     def __init__(
@@ -85,7 +85,7 @@ class SourceButton(QToolButton):
         paint_icon(painter, caret, "caret-down", colour("dim"))
         room = QRect(box.right() + 8, 0, caret.left() - box.right() - 12, self.height())
         source = self.source
-        two_lines(
+        _two_lines(
             painter, room, source.title if source else self.tr("Choose…"), source.detail if source else ""
         )
         # By hand, as all of the button: the style has no part in it.
@@ -95,7 +95,7 @@ class SourceButton(QToolButton):
             painter.drawRoundedRect(self.rect().adjusted(1, 1, -2, -2), RADIUS, RADIUS)
 
 
-def two_lines(painter: QPainter, room: QRect, title: str, detail: str) -> None:
+def _two_lines(painter: QPainter, room: QRect, title: str, detail: str) -> None:
     """Paint a name and below it, smaller, what there is to say about it."""
     own, small = font("text", own=True), font("small")
     upper = room.adjusted(0, 6, 0, -room.height() // 2) if detail else room
@@ -124,8 +124,8 @@ class MergeHeader(QHeaderView):
         self.counts = ""
         self.target = ""
         self.buttons = {
-            column: SourceButton(letter, offers, partial(choose, column), self)
-            for column, letter in LETTERS.items()
+            column: _SourceButton(letter, offers, partial(choose, column), self)
+            for column, letter in _LETTERS.items()
         }
         self.setStretchLastSection(True)
         self.setMinimumSectionSize(34)
@@ -163,8 +163,8 @@ class MergeHeader(QHeaderView):
             )
             painter.drawText(room, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
         elif section == RESULT:
-            two_lines(painter, room, self.tr("Result"), self.target)
+            _two_lines(painter, room, self.tr("Result"), self.target)
         painter.restore()
 
 
-assert set(SIDES) == set(LETTERS)
+assert set(SIDES) == set(_LETTERS)

@@ -33,7 +33,7 @@ class MigrationRow:
     why: str
 
 
-def outcomes() -> dict[str, tuple[str, str, Token]]:
+def _outcomes() -> dict[str, tuple[str, str, Token]]:
     """Return what can become of a parameter: its title, icon and colour, what needs a person first."""
     return {
         "asked": (tr("Asked"), "question", "warn"),
@@ -141,7 +141,7 @@ class MigrationTree(QTreeWidget):
         place = self.verticalScrollBar().value()
         self.clear()
         rows = list(zip(migration.entries, rows_of(migration, label, sentence), strict=True))
-        for outcome, (title, mark, shade) in outcomes().items():
+        for outcome, (title, mark, shade) in _outcomes().items():
             own = [row for entry, row in rows if entry.outcome == outcome]
             if own:
                 self._add(outcome, f"{title} ({len(own)})", mark, shade, own)

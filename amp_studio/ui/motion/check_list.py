@@ -43,11 +43,11 @@ MARKS: dict[str, tuple[str, Token]] = {
 }
 """Verdict -> its icon; in this order within a part."""
 PARTS: tuple[CheckPart, ...] = ("homing", "travel", "following", "spindle", "probing", "coupling")
-BAR = 44
+_BAR = 44
 """Width of a bar in logical pixels."""
 _WITH_BARS = 300
 """Width of the list from which there is room for bars."""
-NEAR = 0.95
+_NEAR = 0.95
 """Share of its limit from which a figure is bold."""
 
 
@@ -73,7 +73,7 @@ def part_in_words(part: CheckPart) -> str:
     }[part]
 
 
-def name_of_check(check: MotionCheck) -> str:
+def _name_of_check(check: MotionCheck) -> str:
     """Return scenario and axis."""
     return " ".join(filter(None, (scenario_in_words(check.scenario), check.letter)))
 
@@ -83,13 +83,13 @@ def figures_of(check: MotionCheck) -> list[str]:
     number stays.
     """
     return [
-        f"{worded(name.replace('_', ' '))} {number_in_words(value, unit)}"
+        f"{worded(name.replace('_', ' '))} {_number_in_words(value, unit)}"
         for name, (value, unit) in check.figures.items()
         if value is not None
     ]
 
 
-def number_in_words(value: float | None, unit: str, digits: int = 4) -> str:
+def _number_in_words(value: float | None, unit: str, digits: int = 4) -> str:
     """Return a figure with its unit; a dash for none."""
     return "–" if value is None else written(value_text(float(value), unit_in_words(unit), digits))
 
@@ -102,7 +102,7 @@ def figure_of(file: ParameterFile, check: MotionCheck) -> str:
     if check.use is not None and check.part == "following":
         return _of_limit(check.use, is_good=check.verdict == "good")
     value, unit = check.figures.get(check.headline, (None, ""))
-    return "" if value is None else number_in_words(value, unit, 3)
+    return "" if value is None else _number_in_words(value, unit, 3)
 
 
 def _of_limit(use: LimitUse, *, is_good: bool) -> str:
@@ -178,9 +178,9 @@ class CheckRows(QAbstractListModel):
         if not isinstance(row, MotionCheck):
             return part_in_words(row) if role == Qt.ItemDataRole.DisplayRole else None
         if role == Qt.ItemDataRole.DisplayRole:
-            return name_of_check(row)
+            return _name_of_check(row)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            words = f"{name_of_check(row)}: {verdict_in_words(row.verdict)}"
+            words = f"{_name_of_check(row)}: {verdict_in_words(row.verdict)}"
             return ", ".join(filter(None, (words, figure_of(self.file, row))))
         if role == Qt.ItemDataRole.ToolTipRole:
             return as_tip(self._tip(row))
@@ -188,7 +188,7 @@ class CheckRows(QAbstractListModel):
 
     def _tip(self, check: MotionCheck) -> str:
         family, why = self.file.schema.family.family, sentenced_with_letters(self.file, check.why)
-        parts = [f"{name_of_check(check)}: {verdict_in_words(check.verdict)}", why]
+        parts = [f"{_name_of_check(check)}: {verdict_in_words(check.verdict)}", why]
         if check.use is not None and math.isfinite(check.use.share):
             share = written(value_text(100.0 * check.use.share, digits=3))
             limit = sentenced(check.use.limit.replace("_", " "), family)
@@ -196,7 +196,7 @@ class CheckRows(QAbstractListModel):
         return "\n".join(filter(None, (*parts, ", ".join(figures_of(check)))))
 
 
-class CheckDelegate(QStyledItemDelegate):
+class _CheckDelegate(QStyledItemDelegate):
     """Paints heads and rows of the list."""
 
     def sizeHint(self, option: QStyleOptionViewItem, index: RowIndex) -> QSize:
@@ -244,7 +244,7 @@ class CheckDelegate(QStyledItemDelegate):
         painter.drawText(inner, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, text)
         room = inner.adjusted(0, 0, -wide - GAP2, 0)
         if check.use is not None and box.width() >= _WITH_BARS:
-            place = QRect(box.right() - GAP3 - FIGURES - BAR - GAP2, box.top(), BAR, box.height())
+            place = QRect(box.right() - GAP3 - _FIGURES - _BAR - GAP2, box.top(), _BAR, box.height())
             # Bars are below each other; only a figure that is wider than its column moves its own bar.
             place.moveRight(min(place.right(), room.right()))
             self._bar(painter, place, check.use.share, tint)
@@ -252,7 +252,7 @@ class CheckDelegate(QStyledItemDelegate):
         plain = font("text")
         painter.setFont(plain)
         painter.setPen(colour("dim" if check.verdict == "not possible" else "text"))
-        measure, name = QFontMetrics(plain), name_of_check(check)
+        measure, name = QFontMetrics(plain), _name_of_check(check)
         painter.drawText(
             room,
             Qt.AlignmentFlag.AlignVCenter,
@@ -287,7 +287,7 @@ class CheckDelegate(QStyledItemDelegate):
         painter.drawRoundedRect(QRectF(line.left(), line.top(), max(part * line.width(), 2.0), 4.0), 2.0, 2.0)
 
 
-FIGURES = 72
+_FIGURES = 72
 """Room for a figure behind the bars, which keeps them under one another."""
 
 
@@ -297,7 +297,7 @@ class MachineCheckList(QListView):
     def __init__(self, rows: CheckRows, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setModel(rows)
-        self.setItemDelegate(CheckDelegate(self))
+        self.setItemDelegate(_CheckDelegate(self))
         self.setFrameShape(QListView.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)

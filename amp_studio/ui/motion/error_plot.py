@@ -14,9 +14,9 @@ from amp_studio.calibration import ErrorCurve
 from amp_studio.drawing import Curve, Picture, ShapeSort, panel_of
 from amp_studio.ui.base.plot import Plot
 
-MICRO = 1000
+_MICRO = 1000
 """Errors are drawn in µm where positions are in mm."""
-MAX_DOTS = 60
+_MAX_DOTS = 60
 """Points that are drawn one by one; of more only the line."""
 
 
@@ -39,7 +39,7 @@ class ErrorPlot(Plot):
 
     def show_errors(self, traces: Sequence[ErrorTrace], unit: str) -> None:
         """Draw these curves instead of the ones before; ``unit`` of positions and errors."""
-        times, error_unit = (MICRO, "µm") if "mm" in unit else (1, unit)
+        times, error_unit = (_MICRO, "µm") if "mm" in unit else (1, unit)
         curves = [*chain.from_iterable(_curves(trace, times) for trace in traces)]
         named = [curve.name for curve in curves if curve.name]
         title = named[0] if len(named) == 1 else "error" if named else self.tr("No points")
@@ -53,5 +53,5 @@ def _curves(trace: ErrorTrace, times: float) -> Iterator[Curve]:
     x, y = (np.array([float(each[n]) for each in trace.curve.points]) for n in (0, 1))
     curve = Curve(trace.name, x, y * times, trace.sort, trace.dashed)
     yield curve
-    if len(x) <= MAX_DOTS:
+    if len(x) <= _MAX_DOTS:
         yield replace(curve, name="", dots=True)

@@ -38,8 +38,8 @@ from amp_studio.ui.forms.segment import Segment
 from .latest_work import LatestWork
 from .scene_view import SceneView
 
-HIGHEST = "highest"
-MIN_FIELD = 56
+_HIGHEST = "highest"
+_MIN_FIELD = 56
 """Least width of a field in logical pixels."""
 
 
@@ -116,11 +116,11 @@ def _field(name: str, tip: str) -> QLineEdit:
     field.setAccessibleName(name)
     field.setPlaceholderText(name)
     field.setToolTip(tip)
-    field.setFixedWidth(max(field.fontMetrics().horizontalAdvance(name) + 2 * GAP3, MIN_FIELD))
+    field.setFixedWidth(max(field.fontMetrics().horizontalAdvance(name) + 2 * GAP3, _MIN_FIELD))
     return field
 
 
-def typed_length(text: str) -> str | None:
+def _typed_length(text: str) -> str | None:
     """Return a length as it was typed, None for an empty one; raises InvalidValueError for what is none."""
     if not text.strip():
         return None
@@ -131,7 +131,7 @@ def typed_length(text: str) -> str | None:
     return f"{number!r} {unit.strip()}".strip()
 
 
-class GridBar(QWidget):
+class _GridBar(QWidget):
     """Where the marker is between two others, in % of a turn, with the part that is sure."""
 
     def __init__(self) -> None:
@@ -183,7 +183,7 @@ class CheckCard(Card):
         self.length.returnPressed.connect(self._give_length)
         self.head.addWidget(self.length)
         self.head.addWidget(self.axes)
-        self.grid, self.grid_text = GridBar(), QLabel()
+        self.grid, self.grid_text = _GridBar(), QLabel()
         self.message = ElidedLabel()
         self.fix = QPushButton()
         self.fix.setProperty("primary", "true")
@@ -196,7 +196,7 @@ class CheckCard(Card):
 
     def _give_length(self) -> None:
         try:
-            self.length_given.emit(typed_length(self.length.text()))
+            self.length_given.emit(_typed_length(self.length.text()))
         except InvalidValueError as error:
             self.message.setText(str(error))
 
@@ -321,7 +321,7 @@ class TravelCard(Card):
         if self.picture is None:
             return
         try:
-            text = typed_length(self.hard.text())
+            text = _typed_length(self.hard.text())
             hard = None if text is None else read_number(text)[0]
         except InvalidValueError as error:
             self.about.setText(str(error))
@@ -383,7 +383,7 @@ class SpindleCard(Card):
     def _run(self) -> None:
         if self._file is None:
             return
-        speed: float | str = HIGHEST
+        speed: float | str = _HIGHEST
         # S1500 as in a program, or the figure alone.
         if text := self.speed.text().strip().lstrip("Ss"):
             try:

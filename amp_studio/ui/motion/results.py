@@ -25,7 +25,7 @@ from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.pages import LINK
 
-PREDICTED, SWEPT = "predicted_", "swept_"
+_PREDICTED, _SWEPT = "predicted_", "swept_"
 
 
 def name_of(schema: Schema, parameter: str) -> str:
@@ -65,7 +65,7 @@ class FiguresPage(QTextBrowser):
 
 def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
     dim = state_colour().name()
-    others = [kind for kind in (PREDICTED, SWEPT) if any(name.startswith(kind) for name in trace.result)]
+    others = [kind for kind in (_PREDICTED, _SWEPT) if any(name.startswith(kind) for name in trace.result)]
     heads = [worded(kind.rstrip("_")) for kind in others] + [before_name] * (before is not None)
     head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
     rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []

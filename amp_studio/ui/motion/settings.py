@@ -20,7 +20,7 @@ RAMPS = (
     ("sine-squared", "sine squared"),
     ("none", "no ramp"),
 )
-LENGTHS = (
+_LENGTHS = (
     "move.distance",
     "move.radius",
     "move.amplitude",
@@ -73,14 +73,14 @@ class SettingsForm(FieldForm):
         has it.
         """
         unit = self._unit(name)
-        if not unit and name not in (*LENGTHS, FEEDRATE) and " (" in meaning:
+        if not unit and name not in (*_LENGTHS, FEEDRATE) and " (" in meaning:
             unit = words.partition(" (")[2].partition(")")[0]
         default = words.partition(f"{self.tr('default:')} ")[2] or self.tr("automatic")
         empty = f"{self.tr('empty:')} {default}"
         return f"{unit_in_words(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:
-        return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""
+        return self._units[0] if name in _LENGTHS else self._units[1] if name == FEEDRATE else ""
 
     def show_defaults(self, defaults: Mapping[str, str]) -> None:
         """Show in the empty fields what is taken now."""

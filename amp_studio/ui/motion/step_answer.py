@@ -24,7 +24,7 @@ from .tuning_target import TuningTarget
 _SHOWN = slice(1, 3)
 """Of the panels of a step those below the position: following error and velocity.
 Each takes its time to draw."""
-SETTLE_MS = 150
+_SETTLE_MS = 150
 """Milliseconds without a further change before it is simulated again."""
 
 
@@ -48,7 +48,7 @@ class StepAnswer(QWidget):
         label = QLabel(self.tr("Simulated ste&p of axis"))
         label.setBuddy(self.axis)
         in_column(in_row(label, self.axis, self.keep, 0), (self.plot, 1), self.text, on=self, margins=0)
-        self._timer = single_shot(self, self.run, SETTLE_MS)
+        self._timer = single_shot(self, self.run, _SETTLE_MS)
         self._latest.done.connect(self._receive)
         self.axis.currentIndexChanged.connect(lambda *_: self._start_over())
 

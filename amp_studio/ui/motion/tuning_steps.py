@@ -45,7 +45,7 @@ from .settings import scrolled
 from .step_detail import StepDetail
 from .tuning_target import FileTarget, TuningTarget
 
-SETTLE_MS = 250
+_SETTLE_MS = 250
 """Milliseconds without a further change before it is simulated again."""
 _LEFT, _RIGHT = 258, 266
 """Widths in pixels of the steps and of what is proposed."""
@@ -82,7 +82,7 @@ class TuningSteps(QWidget):
         self.tuned: Trace | None = None
         self._make_widgets()
         self._arrange()
-        self._timer = single_shot(self, self.run, SETTLE_MS)
+        self._timer = single_shot(self, self.run, _SETTLE_MS)
         for work in self._work.values():
             work.done.connect(self._receive)
         self.steps.currentRowChanged.connect(lambda *_: self._open())

@@ -27,7 +27,7 @@ from amp_studio.ui.base.theme import GAP, GAP3, colour, font
 
 POINTS = 72
 """Points to the inch."""
-ZOOM_STEP, MIN_ZOOM, MAX_ZOOM = 1.2, 0.25, 4.0
+_ZOOM_STEP, _MIN_ZOOM, _MAX_ZOOM = 1.2, 0.25, 4.0
 """Zoom is in pixels to the point; 96 / 72 is the size of the paper."""
 _LINE_ABOVE, _LINE_BELOW = 2.0, 9.5
 """Points of a line of a table above and below the place of its value."""
@@ -144,7 +144,7 @@ class PageView(QAbstractScrollArea):
 
     def set_zoom(self, zoom: float | None) -> None:
         """Show the pages in a scale, or each as wide as there is room (None)."""
-        wanted = None if zoom is None else min(max(zoom, MIN_ZOOM), MAX_ZOOM)
+        wanted = None if zoom is None else min(max(zoom, _MIN_ZOOM), _MAX_ZOOM)
         if wanted != self.zoom:
             spot = self.spot()
             self.zoom = wanted
@@ -153,7 +153,7 @@ class PageView(QAbstractScrollArea):
 
     def step_zoom(self, by: int) -> None:
         """Show the pages larger or smaller."""
-        self.set_zoom(self.scale() * ZOOM_STEP**by)
+        self.set_zoom(self.scale() * _ZOOM_STEP**by)
 
     def scale(self) -> float:
         """Return the pixels to the point of the page at the top."""
@@ -165,7 +165,7 @@ class PageView(QAbstractScrollArea):
         if self.zoom is not None:
             return self.zoom
         wanted = (self.viewport().width() - 2 * GAP3) / max(self._sizes[page][0], 1.0)
-        return min(max(wanted, MIN_ZOOM), MAX_ZOOM)
+        return min(max(wanted, _MIN_ZOOM), _MAX_ZOOM)
 
     def _of(self, page: int) -> QSize:
         """Return the size of a page in pixels."""

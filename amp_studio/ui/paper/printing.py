@@ -112,7 +112,7 @@ def print_now(window: StudioWindow, workspace: Workspace) -> None:
     printer = _printer_for(workspace)
     dialog = QPrintDialog(printer, window)
     if run_dialog(dialog):
-        put_on_paper(_set_for_paper(window, workspace), printer)
+        _put_on_paper(_set_for_paper(window, workspace), printer)
     dialog.deleteLater()
 
 
@@ -125,12 +125,12 @@ def _preview(window: StudioWindow, workspace: Workspace) -> None:
     pages, printer = _set_for_paper(window, workspace), _printer_for(workspace)
     preview = QPrintPreviewDialog(printer, window)  # which does not keep the printer alive
     preview.setWindowTitle(tr("Report"))
-    preview.paintRequested.connect(partial(put_on_paper, pages))
+    preview.paintRequested.connect(partial(_put_on_paper, pages))
     run_dialog(preview)
     preview.deleteLater()
 
 
-def put_on_paper(pages: Sequence[bytes], printer: QPrinter) -> None:
+def _put_on_paper(pages: Sequence[bytes], printer: QPrinter) -> None:
     """Paint pages, given as PNG, each on a sheet that lies as the page does."""
     painter = QPainter()
     for n, page in enumerate(pages):

@@ -12,7 +12,7 @@ from PySide6.QtCore import QFileSystemWatcher, QObject, Signal
 from amp_studio.report import OWN
 from amp_studio.ui.base.single_shot import single_shot
 
-SETTLE_MS = 150
+_SETTLE_MS = 150
 """Milliseconds to wait, as an editor may write a file in several steps."""
 
 
@@ -30,7 +30,7 @@ class TemplateWatch(QObject):
         self._folder: Path | None = None
         self._state: object = None
         self._watcher = QFileSystemWatcher(self)
-        self._timer = single_shot(self, self._compare, SETTLE_MS)
+        self._timer = single_shot(self, self._compare, _SETTLE_MS)
         self._watcher.fileChanged.connect(lambda _: self._timer.start())
         self._watcher.directoryChanged.connect(lambda _: self._timer.start())
 

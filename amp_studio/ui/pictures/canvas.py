@@ -25,7 +25,7 @@ from amp_studio.validate import Finding
 
 from .paint import Tag, empty_text, paint_handles, paint_tag
 
-TOGETHER = 2
+_TOGETHER = 2
 """Handles so much farther away than the nearest one lie on it, in logical pixels;
 a click goes on to the next."""
 DrawScene = Callable[[Scene | None], Scene]
@@ -290,7 +290,7 @@ class PictureCanvas(QWidget):
                 # At one place the handle that moves more values comes first: a corner before its edges.
                 found.append((round(far), -len(handle.drags), n))
         found.sort()
-        return [n for far, _, n in found if far <= found[0][0] + TOGETHER]
+        return [n for far, _, n in found if far <= found[0][0] + _TOGETHER]
 
     def _name_at(self, at: QPointF) -> Address | None:
         return next((address for box, address in self._names if box.contains(at)), None)  # type: ignore[attr-defined]  # the boxes are rectangles of Qt

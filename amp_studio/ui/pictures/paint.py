@@ -13,9 +13,9 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, colour, font, severity_colour
 
-MAX_REASON = 380.0
+_MAX_REASON = 380.0
 """Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
-HANDLE = 9.0
+_HANDLE = 9.0
 """Side of a handle in logical pixels."""
 
 
@@ -25,7 +25,7 @@ def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[H
     A square for one value, a circle for one of less weight, a small square for those of a corner;
     filled where it has the focus.
     """
-    half = 0.5 * HANDLE
+    half = 0.5 * _HANDLE
     for handle, is_active, severity in handles:
         at = QPointF(*place.at(handle.at))
         shade = severity_colour(severity) if severity else colour("sel" if is_active else "text")
@@ -37,7 +37,7 @@ def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[H
         elif handle.second:
             painter.drawEllipse(at, half - 0.5, half - 0.5)
         else:
-            painter.drawRoundedRect(QRectF(at.x() - half, at.y() - half, HANDLE, HANDLE), 1.5, 1.5)
+            painter.drawRoundedRect(QRectF(at.x() - half, at.y() - half, _HANDLE, _HANDLE), 1.5, 1.5)
 
 
 class Tag(NamedTuple):
@@ -57,7 +57,7 @@ def paint_tag(painter: QPainter, place: Placement, at: tuple[float, float], tag:
     caption, strong = font("caption"), font("small")
     strong.setWeight(strong.Weight.DemiBold)
     small, large = QFontMetricsF(caption), QFontMetricsF(strong)
-    reason = small.elidedText(tag.reason, Qt.TextElideMode.ElideRight, MAX_REASON)
+    reason = small.elidedText(tag.reason, Qt.TextElideMode.ElideRight, _MAX_REASON)
     beside = large.horizontalAdvance(tag.value) + (
         GAP2 + small.horizontalAdvance(tag.old) if tag.old else 0.0
     )

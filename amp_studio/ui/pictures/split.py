@@ -12,10 +12,10 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QWidget
 
 Arrangement = Literal["beside", "below", "instead"]
-WIDE, TALL = 1000, 440
+_WIDE, _TALL = 1000, 440
 """Width from which pictures are beside the table, height from which they are below it,
 while the user has not chosen."""
-MIN_WIDTH, MIN_HEIGHT = 720, 380
+_MIN_WIDTH, _MIN_HEIGHT = 720, 380
 """Least width and height for what a person has chosen; in a smaller room the pictures cover the table."""
 
 
@@ -46,13 +46,13 @@ class PictureLayout:
 
     def fitting(self, width: int, height: int) -> Arrangement:
         """Return the arrangement for a room."""
-        if self.choice == "beside" and width >= MIN_WIDTH:
+        if self.choice == "beside" and width >= _MIN_WIDTH:
             return "beside"
-        if self.choice == "below" and height >= MIN_HEIGHT:
+        if self.choice == "below" and height >= _MIN_HEIGHT:
             return "below"
         if self.choice is not None:
             return "instead"
-        return "beside" if width >= WIDE else "below" if height >= TALL else "instead"
+        return "beside" if width >= _WIDE else "below" if height >= _TALL else "instead"
 
 
 class SidePage(QWidget):

@@ -20,7 +20,7 @@ from amp_studio.ui.base.translated import tr
 
 from .tables import ROW, LimitRowDelegate, TableLook
 
-SHOWN, MIN_FOLDED = 6, 3
+_SHOWN, _MIN_FOLDED = 6, 3
 """Of blocks that are alike so many are listed; so many are worth a fold at least."""
 MAX_LISTED = 200_000
 """Blocks that are listed; the rest is computed too."""
@@ -95,10 +95,12 @@ class BlockModel(QAbstractTableModel):
         alike = self.rows.alike
         edges = np.flatnonzero(np.diff(alike, prepend=-2)) if len(alike) else np.zeros(0, np.int64)
         ends = np.append(edges[1:], len(alike))
-        long = (ends - edges >= SHOWN + MIN_FOLDED) & (alike[edges] >= 0) if len(edges) else np.zeros(0, bool)
+        long = (
+            (ends - edges >= _SHOWN + _MIN_FOLDED) & (alike[edges] >= 0) if len(edges) else np.zeros(0, bool)
+        )
         is_seen = np.ones(len(alike), bool)
         heads: list[tuple[int, int]] = []
-        for first, end in zip((edges[long] + SHOWN).tolist(), ends[long].tolist(), strict=True):
+        for first, end in zip((edges[long] + _SHOWN).tolist(), ends[long].tolist(), strict=True):
             is_seen[first:end] = first in self._open
             heads.append((first, end - first))
         blocks = np.flatnonzero(is_seen)

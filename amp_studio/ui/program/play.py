@@ -18,8 +18,8 @@ from amp_studio.ui.base.theme import GAP2, colour, font, scheme
 
 STEPS = 10_000
 """Places of the slider."""
-EVERY_MS = 60
-HEIGHT = 22
+_EVERY_MS = 60
+_HEIGHT = 22
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class TimeBar(QWidget):
         scheme().changed.connect(self.update)
 
     def sizeHint(self) -> QSize:
-        return QSize(200, HEIGHT)
+        return QSize(200, _HEIGHT)
 
     def show_parts(self, parts: Sequence[TimePart]) -> None:
         """Show other parts."""
@@ -87,7 +87,7 @@ class PlayBar(QWidget):
         """The moment that was gone to; None where the slider was moved since."""
         self._begun = 0.0
         self._clock, self._timer = QElapsedTimer(), QTimer(self)
-        self._timer.setInterval(EVERY_MS)
+        self._timer.setInterval(_EVERY_MS)
         self._timer.timeout.connect(self._pass)
         self.button = QPushButton(self.tr("&Play"))
         self.button.setEnabled(False)

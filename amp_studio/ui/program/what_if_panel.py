@@ -21,14 +21,14 @@ from .tables import TableLook, fill, read_table
 Values = Mapping[Address, Value]
 
 
-ABOVE = "\u26a0 "
+_ABOVE = "\u26a0 "
 """Before an error that is above one's own limit."""
 
 
 def effect(found: Mapping[str, Any], length: str, limit: float = math.inf) -> tuple[str, str, str]:
     """Return time, its change and that of the largest contour error of a try, as they are shown."""
     error = found.get("contour_error_change", {}).get("value")
-    mark = ABOVE if found.get("contour_error", {}).get("value", 0.0) > limit else ""
+    mark = _ABOVE if found.get("contour_error", {}).get("value", 0.0) > limit else ""
     return (
         written(f"{found['time']['value']:.4g}"),
         written(f"{100.0 * found['time_change']:+.1f}"),

@@ -20,10 +20,10 @@ from .cell_painter import CellPainter
 from .more_columns import STRIP
 from .parameter_table import ParameterTable
 
-MIN_COLUMN = 84
+_MIN_COLUMN = 84
 MIN_NAMES = 150
 """Width of the names in a table that is too narrow for its axes."""
-MAX_FROZEN = 1 / 3
+_MAX_FROZEN = 1 / 3
 """Share of the table that numbers and names have at most: what stays while the axes scroll."""
 _MAX_TEXT, _MIN_TEXT = 300, 120
 """Width of a column of texts that a user may have typed, which may be a page long."""
@@ -113,7 +113,7 @@ def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
     """Return the widths for a table that is ``room`` wide; a room that is hardly there at all has none."""
     room = max(room, 0)
     number, short = content.number, content.short
-    wanted = min(number + content.names, int(room * MAX_FROZEN))
+    wanted = min(number + content.names, int(room * _MAX_FROZEN))
     # The columns have their short widths first, but names keep a width at which they can be read.
     frozen = max(min(wanted, room - sum(short)), min(wanted, number + MIN_NAMES))
     columns = _shared(content.full, short, room - frozen)
@@ -162,7 +162,7 @@ def _head_of_block(table: ParameterTable) -> int:
 
 
 def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short: bool = False) -> int:
-    most = MIN_COLUMN
+    most = _MIN_COLUMN
     for look in looks:
         needed = painter.needed(look, slot, is_short=is_short)
         is_printed = bool(look.short) and (is_short or not look.unit)  # a choice; of a mask the shorter names

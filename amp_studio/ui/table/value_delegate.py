@@ -33,7 +33,7 @@ from .parameter_table import AddressRole, ParameterTable
 _NARROWEST_EDITOR = 130
 
 
-def limits_of(workspace: Workspace, address: Address) -> Limits | None:
+def _limits_of(workspace: Workspace, address: Address) -> Limits | None:
     """Return the bounds of an address in the unit in which it is typed."""
     return limits(workspace.file.evaluation, address, workspace.typed_unit(address))
 
@@ -42,7 +42,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
     """Return the allowed values of an address: ``0 to 214.1 mm``, or the unit alone; empty for a choice."""
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
-    found = limits_of(workspace, address)
+    found = _limits_of(workspace, address)
     return range_in_words(found) if found else unit_in_words(workspace.typed_unit(address))
 
 

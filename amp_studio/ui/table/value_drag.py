@@ -11,7 +11,7 @@ from amp_studio.schema import Address, Value
 from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.workspace import Workspace
 
-FOLLOW_MS = 60
+_FOLLOW_MS = 60
 """Milliseconds after which findings and the other views follow a moving value; the picture follows at
 once."""
 
@@ -27,7 +27,7 @@ class ValueDrag(QObject):
         self._marks = HeaderSnapshot.of(workspace.file)
         self.refused = ""
         """Why the last place was not taken; the values are still those before it."""
-        self._follow = single_shot(self, self._show_value, FOLLOW_MS)
+        self._follow = single_shot(self, self._show_value, _FOLLOW_MS)
         workspace.validator.update(list(addresses))  # rules are compiled now, and not in the first frame
 
     @property

@@ -74,7 +74,7 @@ class WelcomeList(QListWidget):
         super().__init__(parent)
         self.setAccessibleName(name)
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setItemDelegate(RowDelegate(self))
+        self.setItemDelegate(_RowDelegate(self))
         self.setMouseTracking(True)
         self.setVerticalScrollMode(QListWidget.ScrollMode.ScrollPerPixel)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -132,7 +132,7 @@ class WelcomeList(QListWidget):
         (self.star_clicked if is_star else self.itemActivated).emit(item)
 
 
-class RowDelegate(QStyledItemDelegate):
+class _RowDelegate(QStyledItemDelegate):
     """Paints a ``WelcomeRow``."""
 
     def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:

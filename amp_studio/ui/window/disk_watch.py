@@ -17,7 +17,7 @@ from amp_studio.ui.page.file_page import FilePage
 
 from .settings import is_there
 
-SETTLE_MS = 250
+_SETTLE_MS = 250
 """Milliseconds to wait, as a program may write a file in several steps."""
 
 
@@ -54,13 +54,13 @@ class DiskWatch(QObject):
         self._page.bar.say(text.format(name=name, why=message_in_words(why)), "warning")
 
     def _wait(self, _: str) -> None:
-        self._timer.start(SETTLE_MS)
+        self._timer.start(_SETTLE_MS)
 
     def _check_disk(self) -> None:
         workspace = self._page.workspace
         # Own saves are no news, and under a question the bar could not be answered: later.
         if workspace.is_saving or QApplication.activeModalWidget() is not None:
-            self._timer.start(4 * SETTLE_MS)
+            self._timer.start(4 * _SETTLE_MS)
             return
         if is_there(workspace.path) and str(workspace.path) not in self._watcher.files():
             # A file that was replaced by renaming is another one: Qt has stopped to watch its name.

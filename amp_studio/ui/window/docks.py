@@ -29,8 +29,8 @@ _PANELS = (
 """Name of a dock, where it is and how wide or high, until the user arranges them."""
 _NARROW = {"Groups": 212, "Parameter": 240}
 """The same in a window under 1400 pixels."""
-ROOMY = 1400
-PREVIEW = "Preview"
+_ROOMY = 1400
+_PREVIEW = "Preview"
 """Name of the dock of the report, which is closed until the user opens it."""
 _PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
 """Its share of the window's width, and the least and most pixels."""
@@ -96,7 +96,7 @@ class Docks(Translated):
             self._stacks[title], self._heads[title] = stack, head
         self._share_the_bottom()
         self.preview = QDockWidget(tr("Report Preview"), window)
-        self.preview.setObjectName(PREVIEW)
+        self.preview.setObjectName(_PREVIEW)
         self._place_preview()
         self.preview.hide()
 
@@ -254,7 +254,7 @@ class Docks(Translated):
     def _width_of(self, title: str) -> int:
         """Return how wide a panel at the side is until the user arranges it."""
         wide = next(size for name, _, size in _PANELS if name == title)
-        return wide if self._size.width() >= ROOMY else _NARROW[title]
+        return wide if self._size.width() >= _ROOMY else _NARROW[title]
 
     def keep(self) -> None:
         """Store the arrangement for the next start."""

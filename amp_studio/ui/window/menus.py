@@ -78,8 +78,8 @@ class Menus(Mapping[str, QAction], Generic[W]):
             action.setIconText(row.short)
         if row.only_in_table:
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
-        action.setToolTip(row.tip or tip_of(action))
-        name = plain_name(row.text)
+        action.setToolTip(row.tip or _tip_of(action))
+        name = _plain_name(row.text)
         action.triggered.connect(lambda *_: self._do(row, action, name))
         # On the window too: the keys of a menu that is closed would not work everywhere.
         self._window.addAction(action)
@@ -106,7 +106,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         if row.why_not is not None and (workspace := self._window.workspace) is not None:
             reason = row.why_not(workspace)
             able = able and not reason
-            action.setToolTip(reason or tip_of(action))
+            action.setToolTip(reason or _tip_of(action))
         action.setEnabled(able)
         self._show_state(row, action)
         if row.follows is not None:
@@ -137,7 +137,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         action = QAction(name, group)
         action.setCheckable(True)
         action.setData(key)
-        choose, title = partial(choice.choose, self._window, key), plain_name(choice.text)
+        choose, title = partial(choice.choose, self._window, key), _plain_name(choice.text)
         action.triggered.connect(lambda *_: self._choose(choose, title))
         return action
 
@@ -153,15 +153,15 @@ class Menus(Mapping[str, QAction], Generic[W]):
                 row.setChecked(row.data() == present)
 
 
-def plain_name(text: str) -> str:
+def _plain_name(text: str) -> str:
     """Return the name of an action without Alt letter and dots."""
     return text.replace("&", "").rstrip("…")
 
 
-def tip_of(action: QAction) -> str:
+def _tip_of(action: QAction) -> str:
     """Return the name of an action with its keys."""
     keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-    return f"{plain_name(action.text())} ({keys})" if keys else plain_name(action.text())
+    return f"{_plain_name(action.text())} ({keys})" if keys else _plain_name(action.text())
 
 
 def shortcuts_of(row: Action[W]) -> list[QKeySequence]:

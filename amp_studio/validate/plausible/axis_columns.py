@@ -11,8 +11,8 @@ from amp_studio.validate.finding import Finding
 from .active_value import ActiveValue, ActiveValues, sentence
 
 UNIFORM, COUNTED = "plausible.uniform", "plausible.counted"
-UNIFORM_REASON = "ours, not the manual's: the axes of one machine that move alike have this alike as a rule"
-COUNTED_REASON = "ours, not the manual's: connectors are given out to the axes one after another as a rule"
+_UNIFORM_REASON = "ours, not the manual's: the axes of one machine that move alike have this alike as a rule"
+_COUNTED_REASON = "ours, not the manual's: connectors are given out to the axes one after another as a rule"
 _SPARE = 3
 """Connectors that are there for spindles and handwheels beside those of the axes."""
 
@@ -42,7 +42,7 @@ class AxisColumns:
                 and others[0].number != odd.number
             ):
                 text = f"{sentence(self._file, odd)}, and {sentence(self._file, others[0])}"
-                return [self._finding(UNIFORM, UNIFORM_REASON, odd, f"{text} as on all others like it")]
+                return [self._finding(UNIFORM, _UNIFORM_REASON, odd, f"{text} as on all others like it")]
         return []
 
     def _counted(self, name: str) -> list[Finding]:
@@ -56,7 +56,7 @@ class AxisColumns:
                 continue
             if one.number > len(used) + _SPARE or (is_in_order and one.number == 0.0 and place < max(used)):
                 text = f"{sentence(self._file, one)}, and the others have theirs one after another"
-                return [self._finding(COUNTED, COUNTED_REASON, one, text)]
+                return [self._finding(COUNTED, _COUNTED_REASON, one, text)]
         return []
 
     def _finding(self, rule: str, reason: str, one: ActiveValue, text: str) -> Finding:

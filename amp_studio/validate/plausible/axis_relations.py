@@ -26,15 +26,15 @@ AMONG, TABLE, UPRIGHT, TRAVEL, TOWARDS, GEAR, PROPORTION = (
     "plausible.gear",
     "plausible.proportion",
 )
-AMONG_REASON = "ours, not the manual's: like axes of one machine seldom lie so far apart"
-TABLE_REASON = "ours, not the manual's: X and Y of a table have the same motors, screws and ramps as a rule"
-TRAVEL_REASON = "ours, not the manual's: the travels of one machine are in proportion to each other"
-UPRIGHT_REASON = (
+_AMONG_REASON = "ours, not the manual's: like axes of one machine seldom lie so far apart"
+_TABLE_REASON = "ours, not the manual's: X and Y of a table have the same motors, screws and ramps as a rule"
+_TRAVEL_REASON = "ours, not the manual's: the travels of one machine are in proportion to each other"
+_UPRIGHT_REASON = (
     "ours, not the manual's: the upright axis is about as fast as the table, or slower, as a rule"
 )
-TOWARDS_REASON = "ours, not the manual's: a search goes to the end of the travel at which the switch is"
-GEAR_REASON = "ours, not the manual's: every gear multiplies the speeds of one and the same motor"
-PROPORTION_REASON = "ours, not the manual's: the two pairs of ends belong to one straight line"
+_TOWARDS_REASON = "ours, not the manual's: a search goes to the end of the travel at which the switch is"
+_GEAR_REASON = "ours, not the manual's: every gear multiplies the speeds of one and the same motor"
+_PROPORTION_REASON = "ours, not the manual's: the two pairs of ends belong to one straight line"
 _NEAR, _SHARE = 8.0, 5.0
 """Times that the end at the reference point lies farther out than those of all other axes, also
 in proportion to its travel, from which it is asked about."""
@@ -90,7 +90,7 @@ class AxisRelations:
         if len(numbers) > 2 and len(odd) > 1:
             return []  # each of several is far from all others: nothing is known of what is usual
         # Of two values either is far from the other: one finding names both.
-        return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in odd[:1]]
+        return [self._finding(AMONG, _AMONG_REASON, one, other) for one, other in odd[:1]]
 
     def _zero_among(self, fact: AmongAxes, others: Sequence[ActiveValue]) -> list[Finding]:
         """Find the one value that is 0 beside ``others`` that are not."""
@@ -99,7 +99,7 @@ class AxisRelations:
             return []
         zero = next(one for one in every.values() if not one.number)
         is_odd = are_alike(self._file, zero.address[1], others[0].address[1])
-        return [self._finding(AMONG, AMONG_REASON, zero, others[0])] if is_odd else []
+        return [self._finding(AMONG, _AMONG_REASON, zero, others[0])] if is_odd else []
 
     def _nearest(
         self, number: float, one: ActiveValue, among: list[tuple[float, ActiveValue]]
@@ -155,7 +155,7 @@ class AxisRelations:
             # Both far out, one on each side, are switched off on purpose.
             if any(none) and not (all(none) and _side(low) < 0 < _side(high)):
                 odd, other = (high, low) if none[0] else (low, high)
-                yield self._finding(TRAVEL, TRAVEL_REASON, odd, other)
+                yield self._finding(TRAVEL, _TRAVEL_REASON, odd, other)
 
     def _is_beyond(self, unlimited: float, end: ActiveValue) -> bool:
         """Return whether an end is so far out that it is no limit."""
@@ -174,7 +174,7 @@ class AxisRelations:
         if len(like) < 2 or any(pair[0].measures != near.measures for pair in like):
             return []
         if _is_on_one_side(own, like) or _is_far_out(own, like):
-            return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
+            return [self._finding(TRAVEL, _TRAVEL_REASON, near, like[0][0])]
         return []
 
     def _table(self, ends: Sequence[Ends], most: float) -> list[Finding]:
@@ -188,10 +188,10 @@ class AxisRelations:
             return []
         z = named.get("Z")
         if z is not None and z[1].measures == x[1].measures and z[0] > _UPRIGHT * max(x[0], y[0]):
-            return [self._finding(TRAVEL, TRAVEL_REASON, z[1], max(x, y, key=lambda side: side[0])[1])]
+            return [self._finding(TRAVEL, _TRAVEL_REASON, z[1], max(x, y, key=lambda side: side[0])[1])]
         longer, shorter = (x, y) if x[0] > y[0] else (y, x)
         if longer[0] > most * shorter[0]:
-            return [self._finding(TRAVEL, TRAVEL_REASON, longer[1], shorter[1])]
+            return [self._finding(TRAVEL, _TRAVEL_REASON, longer[1], shorter[1])]
         return []
 
     def _same_on_table(self, names: Mapping[str, float]) -> list[Finding]:
@@ -204,7 +204,7 @@ class AxisRelations:
         x, y = differing[0]
         is_slip = slip_between(x.number, y.number) or slip_between(y.number, x.number)
         is_odd = is_slip or _apart(_size(x), _size(y)) >= names[x.address[0]]
-        return [self._finding(TABLE, TABLE_REASON, x, y)] if is_odd else []
+        return [self._finding(TABLE, _TABLE_REASON, x, y)] if is_odd else []
 
     def _beside_table(self, name: str, span: tuple[float, float]) -> list[Finding]:
         """Compare the upright axis with the faster side of the table."""
@@ -216,7 +216,7 @@ class AxisRelations:
         most = max(sides, key=_size)
         if not _size(z) or span[0] * _size(most) <= _size(z) <= span[1] * _size(most):
             return []
-        return [self._finding(UPRIGHT, UPRIGHT_REASON, z, most)]
+        return [self._finding(UPRIGHT, _UPRIGHT_REASON, z, most)]
 
     def _towards(self, fact: Towards) -> list[Finding]:
         """Find each search that leads away from the end of travel at which its place is."""
@@ -230,7 +230,7 @@ class AxisRelations:
             down, up = float(place.number) - float(low.number), float(high.number) - float(place.number)
             is_at_end = 0 < down + up < _UNLIMITED and min(abs(down), abs(up)) <= _BESIDE * (down + up)
             if is_at_end and _side(speed) != (1 if abs(up) < abs(down) else -1):
-                found.append(self._finding(TOWARDS, TOWARDS_REASON, speed, place))
+                found.append(self._finding(TOWARDS, _TOWARDS_REASON, speed, place))
         return found
 
     def _x_and_y(self, name: str) -> Ends | None:
@@ -253,7 +253,7 @@ class AxisRelations:
             high = gears[n][1]
             # The numbering may begin at the second one; a gap is a line that was missed.
             if n > before + 1 + (before < 0) or (before >= 0 and _size(high) <= _size(gears[before][1])):
-                yield self._finding(GEAR, GEAR_REASON, high, gears[max(before, 0)][1])
+                yield self._finding(GEAR, _GEAR_REASON, high, gears[max(before, 0)][1])
         yield from self._unequal_gears([gears[n] for n in used])
 
     def _unequal_gears(self, gears: Sequence[Ends]) -> Iterator[Finding]:
@@ -262,9 +262,9 @@ class AxisRelations:
             others = [_size(b) / _size(a) for a, b in (*gears[:n], *gears[n + 1 :]) if _size(a)]
             if not _size(low):
                 if n and len(others) == len(gears) - 1 > 1:
-                    yield self._finding(GEAR, GEAR_REASON, low, gears[0][0])
+                    yield self._finding(GEAR, _GEAR_REASON, low, gears[0][0])
             elif len(others) > 1 and all(_apart(_size(high) / _size(low), s) >= _SPREAD for s in others):
-                yield self._finding(GEAR, GEAR_REASON, low, high)
+                yield self._finding(GEAR, _GEAR_REASON, low, high)
 
     def _proportion(self, fact: Proportion) -> list[Finding]:
         """Find two pairs of ends that do not belong to one straight line."""
@@ -280,7 +280,7 @@ class AxisRelations:
         share, as_share = _size(part) / _size(whole), _size(other) / _size(other_whole)
         if as_share and _apart(share, as_share) <= fact.within:
             return []
-        return [self._finding(PROPORTION, PROPORTION_REASON, part, other)]
+        return [self._finding(PROPORTION, _PROPORTION_REASON, part, other)]
 
     def _finding(self, rule: str, reason: str, one: ActiveValue, other: ActiveValue) -> Finding:
         """Return the recommendation on a value beside the one that it was compared with."""

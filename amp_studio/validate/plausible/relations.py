@@ -18,13 +18,13 @@ from .slip import slip_between
 
 UNEQUAL, LADDER, ABOVE = "plausible.unequal", "plausible.ladder", "plausible.above-rapid"
 QUOTIENT, NEEDS = "plausible.quotient", "plausible.needs"
-EQUAL_REASON = (
+_EQUAL_REASON = (
     "ours, not the manual's: these are equal as a rule, and a slip parts them more often than a wish"
 )
-LADDER_REASON = "ours, not the manual's: steps of speeds and increments rise by one factor as a rule"
-ABOVE_REASON = "ours, not the manual's: homing and jogging are slower than a rapid move as a rule"
-QUOTIENT_REASON = "ours, not the manual's: on most machines these two are nearer to each other"
-NEEDS_REASON = "ours, not the manual's: the one does nothing without the other"
+_LADDER_REASON = "ours, not the manual's: steps of speeds and increments rise by one factor as a rule"
+_ABOVE_REASON = "ours, not the manual's: homing and jogging are slower than a rapid move as a rule"
+_QUOTIENT_REASON = "ours, not the manual's: on most machines these two are nearer to each other"
+_NEEDS_REASON = "ours, not the manual's: the one does nothing without the other"
 _TWICE = (2.0, 0.5)
 _AGREE = 1.3
 """Factors of a ladder that are one up to this."""
@@ -188,7 +188,7 @@ class Relations:
                 (one.address,),
                 f"{sentence(self._file, one)}, and {here.label((needed, instance))} is not set. Is it meant?",
                 compared=((needed, instance),),
-                reason=NEEDS_REASON,
+                reason=_NEEDS_REASON,
             )
             for instance, one in self._values[name].items()
             if (needed, instance) not in values and evaluation.state((needed, instance)).is_active
@@ -200,7 +200,7 @@ class Relations:
         message = f"{texts}; as a rule they are equal. Is it meant?"
         compared = (other.address,) if other else ()
         addresses = tuple(one.address for one in causes)
-        return Finding(UNEQUAL, "advice", addresses, message, compared=compared, reason=EQUAL_REASON)
+        return Finding(UNEQUAL, "advice", addresses, message, compared=compared, reason=_EQUAL_REASON)
 
     def _out_of_ladder(self, row: Sequence[ActiveValue], n: int) -> Finding:
         beside = [row[m] for m in (n - 1, n + 1) if 0 <= m < len(row)]
@@ -209,7 +209,7 @@ class Relations:
             f"{sentence(self._file, row[n])} beside {texts}: the others rise by one factor. Is it meant?"
         )
         compared = tuple(one.address for one in beside)
-        return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=LADDER_REASON)
+        return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=_LADDER_REASON)
 
     def _not_rising(self, row: Sequence[ActiveValue], n: int) -> Finding:
         """Return the finding about a step of a ladder that leads back."""
@@ -223,7 +223,7 @@ class Relations:
             (row[n].address,),
             f"{message}. Is it meant?",
             compared=compared,
-            reason=LADDER_REASON,
+            reason=_LADDER_REASON,
         )
 
     def _out_of_proportion(self, one: ActiveValue, other: ActiveValue, usual: tuple[float, float]) -> Finding:
@@ -237,14 +237,14 @@ class Relations:
             "advice",
             (one.address, other.address),
             f"{message}. Is it meant?",
-            reason=QUOTIENT_REASON,
+            reason=_QUOTIENT_REASON,
         )
 
     def _too_fast(self, one: ActiveValue, most: ActiveValue) -> Finding:
         both = f"{sentence(self._file, one)}, and {sentence(self._file, most)}"
         message = f"{both}: it is faster than a rapid move. Is it meant?"
         return Finding(
-            ABOVE, "advice", (one.address,), message, compared=(most.address,), reason=ABOVE_REASON
+            ABOVE, "advice", (one.address,), message, compared=(most.address,), reason=_ABOVE_REASON
         )
 
 

@@ -8,7 +8,7 @@ from typing import TypeGuard
 from amp_studio.schema import Value
 
 _INCH = 25.4
-SWAPPED = "two digits swapped against"
+_SWAPPED = "two digits swapped against"
 _FACTORS = {
     10.0: "ten times",
     0.1: "a tenth of",
@@ -72,7 +72,7 @@ def slip_between(value: Hashable, other: Hashable) -> str:
         # Both went through a conversion into the canonical unit, which may cost the last digits.
         if abs(ratio - factor) <= 1e-9 * abs(factor) or _is_rounded(value, other * factor):
             return words
-    return SWAPPED if _is_swapped(float(value), float(other)) else ""
+    return _SWAPPED if _is_swapped(float(value), float(other)) else ""
 
 
 def slip_as_written(words: str, value: Value, other: Value) -> str:
@@ -80,11 +80,11 @@ def slip_as_written(words: str, value: Value, other: Value) -> str:
 
     7.5 mm/s and 9 mm/s are 450 and 540 mm/min, and no slip; 19 mm/s for 91 mm/s is one.
     """
-    if words not in ("", SWAPPED):
+    if words not in ("", _SWAPPED):
         return words
     # Only what was typed has digits that a hand can swap.
     is_one_unit = value.unit == other.unit and _is_number(value.value) and _is_number(other.value)
-    return SWAPPED if is_one_unit and slip_between(value.value, other.value) == SWAPPED else ""
+    return _SWAPPED if is_one_unit and slip_between(value.value, other.value) == _SWAPPED else ""
 
 
 def _is_rounded(value: float, exact: float) -> bool:

@@ -14,7 +14,9 @@ from amp_studio.schema import Address, Value, show_value
 from amp_studio.validate.finding import Finding
 
 NOT_CLOSED, TURN_BACK, STROKE = "plausible.not-closed", "plausible.turn-back", "plausible.stroke"
-STROKE_REASON = "ours, not the manual's: the axis stops at the end of its travel before the motion is through"
+_STROKE_REASON = (
+    "ours, not the manual's: the axis stops at the end of its travel before the motion is through"
+)
 REASON = (
     "ours, not the manual's: a motion that runs again and again comes back to where it began, or goes one way"
     " only"
@@ -135,7 +137,7 @@ class StepTables:
                 f"{label}: the steps from here on move the axis by {stroke}, and its travel is from {low} to"
                 f" {high}. Is it meant?"
             )
-            yield Finding(STROKE, "advice", (first,), message, compared=ends, reason=STROKE_REASON)
+            yield Finding(STROKE, "advice", (first,), message, compared=ends, reason=_STROKE_REASON)
 
     def _turning_back(self, address: Address) -> Finding:
         schema = self._file.schema

@@ -171,13 +171,13 @@ def _print_three(options: Options, merge: Merge) -> int:
         return int(bool(rows))
     for row in rows:
         base, a, b = (value_text(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b))
-        print(f"{named(merge.a, row):52} base {base}  |  A {a}  |  B {b}  ({WHO[row.kind]})")
+        print(f"{named(merge.a, row):52} base {base}  |  A {a}  |  B {b}  ({_WHO[row.kind]})")
     conflicts = sum(row.kind == "conflict" for row in rows)
     print(f"{how_many(len(rows), same)}, {conflicts} changed by both to different values")
     return int(bool(rows))
 
 
-WHO = {
+_WHO = {
     "a": "A changed it",
     "b": "B changed it",
     "both": "both changed it alike",

@@ -44,10 +44,10 @@ VERB = Verb(
 )
 
 
-SIDES: dict[str, Side] = {"base": "base", "ours": "a", "theirs": "b"}
+_SIDES: dict[str, Side] = {"base": "base", "ours": "a", "theirs": "b"}
 """What a person calls a side -> the side."""
 
-_NAMES = {side: name for name, side in SIDES.items()}
+_NAMES = {side: name for name, side in _SIDES.items()}
 
 
 def run(options: Options) -> int:
@@ -127,9 +127,9 @@ def _settle(merge: Merge, texts: list[str]) -> None:
 
     for text in texts:
         param, equals, name = text.rpartition("=")
-        side = SIDES.get(name.strip())
+        side = _SIDES.get(name.strip())
         if side is None:
-            raise UsageError(f"{quoted(name.strip())} is no side: {', '.join(SIDES)}")
+            raise UsageError(f"{quoted(name.strip())} is no side: {', '.join(_SIDES)}")
         if not equals:
             merge.take(side, merge.conflicts)
             continue
@@ -225,7 +225,7 @@ def _row(merge: Merge, row: Row, result: ParameterFile, secrets: bool) -> dict[s
     if row.id.part == "entry":
         return {"param": row.id.key} | settled
     if row.id.part == "header":
-        sides = {name: None if (v := row.of(side)) is None else v.value for name, side in SIDES.items()}
+        sides = {name: None if (v := row.of(side)) is None else v.value for name, side in _SIDES.items()}
         return {"param": f"file.{row.id.key}"} | sides | settled
     found = row_json(merge, row, secrets)
     settled["result"] = difference_json(

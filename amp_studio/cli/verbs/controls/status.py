@@ -50,7 +50,7 @@ VERB = Verb(
     examples=("amp-studio status tcp://127.0.0.1:8193",),
 )
 PERIOD = 0.2  # s: no control is asked more often
-PLACES = 4
+_PLACES = 4
 
 
 def run(options: Options) -> int:
@@ -71,7 +71,7 @@ def run(options: Options) -> int:
             begun = time.monotonic()
             status = next(seen)
             if options.json:
-                print_json(as_json(options.address, status))
+                print_json(_as_json(options.address, status))
             else:
                 print(text(status), flush=True)
             if not options.watch:
@@ -132,7 +132,7 @@ def _axis_of(status: ControlStatus, name: str | None) -> AxisStatus:
     raise UsageError(f"Name the axis that is recorded with --axis; the control shows {known}")
 
 
-def as_json(address: str, status: ControlStatus) -> dict[str, object]:
+def _as_json(address: str, status: ControlStatus) -> dict[str, object]:
     """Return a status as other programs read it."""
     from dataclasses import asdict
 
@@ -175,7 +175,7 @@ def _number(value: float | str) -> str:
     return (
         value
         if isinstance(value, str)
-        else f"{round(value, PLACES):g}"
+        else f"{round(value, _PLACES):g}"
         if abs(value) < 1e6
         else f"{value:.0f}"
     )

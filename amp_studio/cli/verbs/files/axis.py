@@ -15,7 +15,7 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 if TYPE_CHECKING:
     from amp_studio.files import AxisDifference, Change, ParameterFile
 
-OPERATIONS = {
+_OPERATIONS = {
     "list": (0, 0),
     "compare": (2, 2),
     "copy": (2, 2),
@@ -34,7 +34,7 @@ VERB = Verb(
     VerbArgument(
         "operation",
         nargs="?",
-        choices=tuple(OPERATIONS),
+        choices=tuple(_OPERATIONS),
         default="list",
         help="compare A B, copy FROM TO, swap A B, name A LETTER, type A TYPE, add LETTER [PLACE], remove A",
     ),
@@ -59,7 +59,7 @@ def run(options: Options) -> int:
     """List, compare or change the axes of a file; 1 where two axes differ."""
     from amp_studio import edit
 
-    least, most = OPERATIONS[options.operation]
+    least, most = _OPERATIONS[options.operation]
     if not least <= len(options.arguments) <= most:
         raise UsageError(f"axis {options.operation} takes {_expected(least, most)}: amp-studio axis --help")
     # Without a lock: a file that the window is editing can be listed.

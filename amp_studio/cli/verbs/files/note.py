@@ -40,7 +40,7 @@ VERB = Verb(
 
 MACHINE = "machine"
 
-GROUP = "group:"
+_GROUP = "group:"
 """What a note is about that is about no parameter; what the key of a group comes behind."""
 
 
@@ -106,8 +106,8 @@ def _about(file: ParameterFile, options: Options) -> Address | str:
     """Return the address, or the key of the group; an empty one for the machine."""
     from amp_studio.schema import UnknownParameterError, unknown_name
 
-    if options.about.startswith(GROUP):
-        name = str(options.about.removeprefix(GROUP))
+    if options.about.startswith(_GROUP):
+        name = str(options.about.removeprefix(_GROUP))
         keys = {group.name: group.key for group in file.schema.groups}
         if name not in (*keys, *keys.values()):
             raise UsageError(unknown_name("group", name, [*keys.values(), *keys]))

@@ -29,7 +29,7 @@ VERB = Verb(
     *TEXT,
     examples=('amp-studio block MILL_1394.amp "G01 X10.5 F200"', "amp-studio block MILL_1394.amp"),
 )
-MAX_BLOCKS = 1000
+_MAX_BLOCKS = 1000
 """Blocks that are read."""
 
 
@@ -60,8 +60,8 @@ def _read(file: ParameterFile, lines: Sequence[str]) -> list[ReadBlock]:
     """
     from amp_studio.programs import BlockReader, ProgramBlockError
 
-    if len(lines) > MAX_BLOCKS:
-        raise UsageError(f"{len(lines)} blocks are more than {MAX_BLOCKS}")
+    if len(lines) > _MAX_BLOCKS:
+        raise UsageError(f"{len(lines)} blocks are more than {_MAX_BLOCKS}")
     # One for all of them: what a block switches on is active in the next one.
     reader = BlockReader(file)
     try:

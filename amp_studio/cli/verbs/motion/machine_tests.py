@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from amp_studio import MachineParameters
     from amp_studio.sim import MachineTest
 
-PAPERS = (".pdf", ".html")
+_PAPERS = (".pdf", ".html")
 
 VERB = Verb(
     __doc__,
@@ -66,7 +66,7 @@ def run(options: Options) -> int:
         return _tick(options)
     machine = opened(options.path, options)
     file, axis = machine.file, machine.axis(options.axis) if options.axis else None
-    if options.output and options.output.suffix.lower() in PAPERS:
+    if options.output and options.output.suffix.lower() in _PAPERS:
         return _write_list(options, machine, axis)
     tests = machine_tests(file, axis)
     if options.name:

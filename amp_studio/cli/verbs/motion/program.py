@@ -77,7 +77,7 @@ VERB = Verb(
         "amp-studio program plate.nc --machine ROUTER.amp --over speeds.feed_acc_dec=-20%:+20%",
     ),
 )
-ENDINGS = (".csv", ".svg", ".pdf")
+_ENDINGS = (".csv", ".svg", ".pdf")
 
 
 def run(options: Options) -> int:
@@ -96,8 +96,8 @@ def run(options: Options) -> int:
 
     if options.output:
         check_replaced(options.output, options.path, options.program)
-        if options.output.suffix.lower() not in ENDINGS:
-            raise UsageError(f"{options.output}: a program is written as {', '.join(ENDINGS)}")
+        if options.output.suffix.lower() not in _ENDINGS:
+            raise UsageError(f"{options.output}: a program is written as {', '.join(_ENDINGS)}")
     file = opened(options.path).file
     show = progress()
 

@@ -182,12 +182,12 @@ VERB = Verb(
 )
 
 
-DRAWN = (".svg", ".png", ".pdf", ".html")
+_DRAWN = (".svg", ".png", ".pdf", ".html")
 """Endings of what has a picture in it."""
-HAVE_OPTIONS = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
+_HAVE_OPTIONS = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
 """Option -> the scenarios that it belongs to."""
 
-SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
+_SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
 """First words of settings. A parameter whose id begins so, as ``cam.time`` of the 57C422B, is no setting."""
 
 
@@ -240,7 +240,7 @@ def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterF
         trace = laid_over(trace, options.against, trigger_given(options))
     print_remarks(messages)
     # The second run takes as long as the first: only for a picture, which draws one under the other.
-    if own and options.output and options.output.suffix.lower() in DRAWN:
+    if own and options.output and options.output.suffix.lower() in _DRAWN:
         return tried.file, trace, _earlier(machine, trace, settings, system)
     return tried.file, trace, None
 
@@ -322,9 +322,9 @@ def _settings_with_options(options: Options) -> dict[str, float | str]:
         value = getattr(options, name)
         if value is None:
             continue
-        if options.scenario not in HAVE_OPTIONS[name]:
+        if options.scenario not in _HAVE_OPTIONS[name]:
             raise UsageError(
-                f"--{name} belongs to {' and '.join(HAVE_OPTIONS[name])}, not to {options.scenario}"
+                f"--{name} belongs to {' and '.join(_HAVE_OPTIONS[name])}, not to {options.scenario}"
             )
         found[f"move.{name}"] = value
     return found
@@ -426,7 +426,7 @@ def _settings(texts: Sequence[str], known: Container[str]) -> tuple[dict[str, fl
     settings: dict[str, float | str] = {}
     own = []
     for param, text in assignments(texts):
-        if param.partition(".")[0] in SETTING_GROUPS and param.partition("@")[0] not in known:
+        if param.partition(".")[0] in _SETTING_GROUPS and param.partition("@")[0] not in known:
             settings[param] = text
         else:
             own.append(f"{param}={text}")

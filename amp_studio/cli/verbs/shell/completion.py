@@ -45,18 +45,18 @@ end
 complete -c amp-studio -f -a '(__amp_studio)'
 """
 
-SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
+_SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 
 
 # The scripts ask the program for each completion, so a newer program needs no newer script.
 VERB = Verb(
     __doc__,
-    VerbArgument("shell", choices=tuple(SCRIPTS), help="bash, zsh or fish"),
+    VerbArgument("shell", choices=tuple(_SCRIPTS), help="bash, zsh or fish"),
     examples=("amp-studio completion bash",),
 )
 
 
 def run(options: Options) -> int:
     """Print the script of a shell."""
-    print(SCRIPTS[options.shell], end="")
+    print(_SCRIPTS[options.shell], end="")
     return 0

@@ -17,14 +17,14 @@ from amp_studio.transfer.links import Endpoint
 from .card_motion import WORDS, CardMotion, set_up_figures
 from .settings import COMMANDS_LISTED, CardSettings, CommandError
 
-BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
-LONGEST = 128  # characters of a line; more are neither taken nor echoed (assumed)
+_BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
+_LONGEST = 128  # characters of a line; more are neither taken nor echoed (assumed)
 PIECE = 256
 FILE = "file"
 """Option: the parameter file that card and AcroMill on the PC were set up from."""
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
-COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, fault drive X, status, quit"
-_LISTED = {"VER": (*BANNER,), "HELP": (*BANNER, f"Commands: {COMMANDS_LISTED}")}
+_COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, fault drive X, status, quit"
+_LISTED = {"VER": (*_BANNER,), "HELP": (*_BANNER, f"Commands: {COMMANDS_LISTED}")}
 """What the card lists of itself."""
 _LIVE = re.compile(r"(?:PRINT\s+|\?\s*)(P|BIT)\s*([0-9]{1,5})\s*", re.IGNORECASE)
 
@@ -67,7 +67,7 @@ class AcrCard:
                 if self._line:
                     self._line.pop()
                     self._echo(b"\b \b")
-            elif 0x20 <= byte < 0x7F and len(self._line) < LONGEST:
+            elif 0x20 <= byte < 0x7F and len(self._line) < _LONGEST:
                 self._line.append(byte)
                 self._echo(bytes((byte,)))
 
@@ -150,7 +150,7 @@ class AcrCard:
             case "status", "":
                 return f"P{self._program:02d} {len(self._line)} characters of a line; {self.motion.status()}"
             case _:
-                raise ValueError(f"no command: {COMMANDS}")
+                raise ValueError(f"no command: {_COMMANDS}")
         return visible(line)
 
 

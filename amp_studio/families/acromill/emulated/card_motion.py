@@ -28,9 +28,9 @@ PRIMARY, SECONDARY, SETPOINT_STEP = (
     12295,
     256,
 )  # setpoints before and behind the compensation (page 107)
-NOT_EXCESS, BIT_STEP = 769, 32  # bits for not excess error (page 113)
-RATES = ("VEL", "ACC", "DEC", "STP")
-WORDS = frozenset(("JOG", "MOV", "HALT", "RES", *RATES))
+_NOT_EXCESS, _BIT_STEP = 769, 32  # bits for not excess error (page 113)
+_RATES = ("VEL", "ACC", "DEC", "STP")
+WORDS = frozenset(("JOG", "MOV", "HALT", "RES", *_RATES))
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)"
 _ARGUMENT = re.compile(rf"\s*([{AXES}])\s*({_NUMBER})?(?![\w.])", re.IGNORECASE)
 _MDI = re.compile(rf"G(0|00|1|01|28)((?:\s*[{AXES}F]\s*{_NUMBER})*)\s*", re.IGNORECASE)
@@ -72,7 +72,7 @@ class CardMotion:
 
     def bit(self, number: int) -> bool | None:
         """Return whether an axis is within its EXC; None for other bits."""
-        place, rest = divmod(number - NOT_EXCESS, BIT_STEP)
+        place, rest = divmod(number - _NOT_EXCESS, _BIT_STEP)
         if rest or not 0 <= place < len(AXES):
             return None
         axis = self._machine.axes.get(AXES[place])
@@ -138,7 +138,7 @@ class CardMotion:
         answer = []
         for name, figure in _arguments(rest):
             key = f"JOG {what} {name}"
-            if what in RATES:
+            if what in _RATES:
                 answer += self._rate(key, "" if figure is None else repr(figure))
                 continue
             axis, (speed, ramp) = self._axis(name), self._jogging(name)
@@ -161,7 +161,7 @@ class CardMotion:
         assert jogging.ramp is not None
         rates = {
             word: self._rates[f"JOG {word} {name}"] * self._unit
-            for word in RATES
+            for word in _RATES
             if f"JOG {word} {name}" in self._rates
         }
         ramp = replace(

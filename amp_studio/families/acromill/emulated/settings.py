@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from amp_studio.transfer.emulated import Memory
 
 AXES = "XYZABCUV"
-SAVED = "saved"
+_SAVED = "saved"
 """What ESAVE has written, one setting a line, the last of each counts."""
-LARGEST_P = 16_383  # assumed; the guide shows P09984 and P12345
-MAX_POSITIONS = 1_000  # of a ballscrew table (assumed)
+_LARGEST_P = 16_383  # assumed; the guide shows P09984 and P12345
+_MAX_POSITIONS = 1_000  # of a ballscrew table (assumed)
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]{1,3})?"
 _BY_AXIS = {
@@ -136,7 +136,7 @@ class CardSettings:
         """Make active what is saved, as at power-up and by ELOAD."""
         self.values = {**self._delivered(), **self._set_up}
         # A last line without its end was being written when the power went: it does not count.
-        for line in (self._memory.read(SAVED) or b"").rpartition(b"\n")[0].decode("latin-1").splitlines():
+        for line in (self._memory.read(_SAVED) or b"").rpartition(b"\n")[0].decode("latin-1").splitlines():
             name, _, value = line.partition("=")
             self.values[name] = value
 
@@ -154,12 +154,12 @@ class CardSettings:
             if saved.get(name) != value:
                 # One append a setting: a power failure in between leaves the first ones saved, as an EEPROM
                 # does.
-                self._memory.append(SAVED, f"{name}={value}\n".encode())
-        self._memory.sync(SAVED) if self._memory.read(SAVED) is not None else None
+                self._memory.append(_SAVED, f"{name}={value}\n".encode())
+        self._memory.sync(_SAVED) if self._memory.read(_SAVED) is not None else None
 
     def erase(self) -> None:
         """Forget what is saved; what is active stays active until the power goes."""
-        self._memory.remove(SAVED)
+        self._memory.remove(_SAVED)
 
     def execute(self, line: str) -> list[str]:
         """Obey a line and return what the card shows; raises CommandError,
@@ -221,7 +221,7 @@ class CardSettings:
         axis = found[1].upper()
         if found[2] is None:
             return [f"{axis}{n}E{self.values[f'BSC {axis}{n}']}" for n in range(self._positions(axis))]
-        if int(found[2]) > min(self._positions(axis), MAX_POSITIONS - 1):
+        if int(found[2]) > min(self._positions(axis), _MAX_POSITIONS - 1):
             raise CommandError("Position out of range")
         self.values[f"BSC {axis}{int(found[2])}"] = found[3]
         return []
@@ -231,6 +231,6 @@ class CardSettings:
 
 
 def _p_number(text: str) -> int:
-    if int(text) > LARGEST_P:
+    if int(text) > _LARGEST_P:
         raise CommandError("Number out of range")
     return int(text)

@@ -33,7 +33,7 @@ FAMILY = "acromill"
 TABLE = "ballscrew.table"
 LONGEST = 250
 """Characters of a line; the longest figure that a card shows has some hundred."""
-DIGITS = 7
+_DIGITS = 7
 """Digits that a card shows (pages 92 and 94)."""
 _HEAD = re.compile(rf"{KIND}\nREM units ([a-z]+)\n")
 _BALLSCREW = re.compile(r"BSC (([A-Z])[0-9]{1,6})E(-?\.[0-9]{5})")
@@ -232,7 +232,7 @@ def plain_figure(text: str) -> str:
 
 def _rounded(figure: str) -> Decimal:
     number = Decimal(figure)
-    return number if not number else round(number, DIGITS - 1 - number.adjusted()).normalize()
+    return number if not number else round(number, _DIGITS - 1 - number.adjusted()).normalize()
 
 
 @cache

@@ -22,23 +22,23 @@ from amp_studio.transfer import (
 )
 from amp_studio.transfer.links import Link, LinkError
 
-LONGEST = 160  # characters of half a line that may be left
-TRIES = 8  # of one line
-ECHO_WAIT = 1.5  # seconds until the echo of a line begins
-ECHO_GAP = 0.4  # seconds between two characters of an echo: one that was lost does not come any more
-PROMPT_WAIT = 1.5  # seconds until the prompt comes back
-ANSWER_WAIT = (
+_LONGEST = 160  # characters of half a line that may be left
+_TRIES = 8  # of one line
+_ECHO_WAIT = 1.5  # seconds until the echo of a line begins
+_ECHO_GAP = 0.4  # seconds between two characters of an echo: one that was lost does not come any more
+_PROMPT_WAIT = 1.5  # seconds until the prompt comes back
+_ANSWER_WAIT = (
     20.0  # seconds an answer may take that goes on; a table of 1,000 positions takes 13 at 9600 bit/s
 )
-QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
-MAX_LATE_PIECES = 100  # pieces that may come behind the prompt of a line that was cleared
-PATIENCE = 20.0  # seconds for which a line that is cut is made again
+_QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
+_MAX_LATE_PIECES = 100  # pieces that may come behind the prompt of a line that was cleared
+_PATIENCE = 20.0  # seconds for which a line that is cut is made again
 PAUSE = 0.3
-GRACE = 0.2  # seconds a setting that is under way may take on after a stop was asked for
+_GRACE = 0.2  # seconds a setting that is under way may take on after a stop was asked for
 LARGEST = 1 << 15  # bytes of an answer
 
-BACKSPACE = b"\b"
-SPOIL = b"Q)"
+_BACKSPACE = b"\b"
+_SPOIL = b"Q)"
 """No figure ends so, and no command has a bracket that was not opened:
 what is left of a line is not obeyed with it."""
 _PROMPT = re.compile(rb"(?:^|[\r\n])P([0-9]{2})> ?$")
@@ -73,7 +73,7 @@ class Terminal:
         self._is_clear = False
 
     def execute(
-        self, line: str, seconds: float = PROMPT_WAIT, sent: Callable[[], None] = lambda: None
+        self, line: str, seconds: float = _PROMPT_WAIT, sent: Callable[[], None] = lambda: None
     ) -> list[str]:
         """Have the card obey a line, in at most so many seconds; raises TransferError.
 
@@ -82,7 +82,7 @@ class Terminal:
         """
         self.look()
         fault = ""
-        for _ in range(TRIES):
+        for _ in range(_TRIES):
             try:
                 link = self._line()
                 rows = self._typed(link, line.encode("ascii"), seconds, sent)
@@ -112,7 +112,7 @@ class Terminal:
         """Be called while something waits; raises CancelledError where a stop was asked for."""
         if self._sees_through and self._waiting.is_stopped:
             self._stopped_at = self._stopped_at or self._waiting.now()
-            if self._waiting.now() - self._stopped_at <= GRACE:
+            if self._waiting.now() - self._stopped_at <= _GRACE:
                 return
         self._waiting.look()
 
@@ -124,14 +124,14 @@ class Terminal:
             self._clear(link)
         try:
             link.write(line)
-            echo = self._read_until(link, lambda got: len(got) >= len(line), ECHO_WAIT, gap=ECHO_GAP)
+            echo = self._read_until(link, lambda got: len(got) >= len(line), _ECHO_WAIT, gap=_ECHO_GAP)
             if echo != line:
                 raise _DamagedError("its echo is another" if echo else "there is no echo")
         except CancelledError:
             self._is_clear = False
             with contextlib.suppress(LinkError):
                 # The next line of another program is not to be glued to this one.
-                link.write(BACKSPACE * len(line))
+                link.write(_BACKSPACE * len(line))
             raise
         except BaseException:
             self._is_clear = False  # the next one takes away what is there of the line
@@ -165,13 +165,13 @@ class Terminal:
         """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt."""
         # The carriage return is needed for a prompt, and would obey what is left of the line: it is
         # erased, and spoiled in case it is not.
-        link.write(BACKSPACE * LONGEST + SPOIL + b"\r")
-        got = self._read_until(link, lambda got: _PROMPT.search(got) is not None, PROMPT_WAIT, keep=64)
+        link.write(_BACKSPACE * _LONGEST + _SPOIL + b"\r")
+        got = self._read_until(link, lambda got: _PROMPT.search(got) is not None, _PROMPT_WAIT, keep=64)
         if not got:
             raise _DamagedError("the card does not answer")
         # A card echoes what it has been sent and falls silent: an end without an end is another
         # machine.
-        if all(self._read_until(link, bool, QUIET, keep=1) for _ in range(MAX_LATE_PIECES)):
+        if all(self._read_until(link, bool, _QUIET, keep=1) for _ in range(_MAX_LATE_PIECES)):
             raise ProtocolMismatchError("this is no ACR card: it sends without an end")
         if not re.search(rb"P[0-9]{2}>", got):
             raise _DamagedError("there is no prompt as an ACR card has")
@@ -193,13 +193,13 @@ class Terminal:
         """
         got, count = b"", 0
         end = self._waiting.now() + seconds
-        latest = end + ANSWER_WAIT
+        latest = end + _ANSWER_WAIT
         while not is_enough(got):
             left = end - self._waiting.now()
             if left <= 0:
                 break
             self.look()
-            data = link.read(min(left, QUIET))
+            data = link.read(min(left, _QUIET))
             got, count = got + data, count + len(data)
             # Each byte earns another gap, up to the longest answer: a slow line is no silent one.
             if data and gap is not None:
@@ -227,7 +227,7 @@ class Terminal:
         return self._link
 
     def _make_again(self) -> None:
-        """Make a line again that has broken, within PATIENCE; raises ConnectionCutError."""
+        """Make a line again that has broken, within _PATIENCE; raises ConnectionCutError."""
         self.close()
         self.cuts += 1
         began = self._waiting.now()
@@ -236,7 +236,7 @@ class Terminal:
             try:
                 self._line()
             except LinkError as again:
-                if self._waiting.now() - began > PATIENCE:
+                if self._waiting.now() - began > _PATIENCE:
                     raise ConnectionCutError(f"the line broke: {again.what}") from None
             else:
                 return

@@ -22,25 +22,25 @@ from .reports import FirmwareReports
 from .stored_settings import OUT_OF_RANGE, RefusedError, StoredSettings
 
 MEMORY = "settings"
-LINE, CLASSIC_LINE = 256, 80
+_LINE, _CLASSIC_LINE = 256, 80
 """Characters of the longest line."""
 PIECE = 512
-OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
-POSITIONS = ("G28", "G30", "G92")
-UNKNOWN, NOT_IDLE, LOCKED, TOO_LONG, NO_HOMING, BAD_WORD = 3, 8, 9, 11, 5, 20
-TRAVEL_EXCEEDED, BAD_JOG, NO_FEED = 15, 16, 22
-CRITICAL = 79
+_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
+_POSITIONS = ("G28", "G30", "G92")
+_UNKNOWN, _NOT_IDLE, _LOCKED, _TOO_LONG, _NO_HOMING, _BAD_WORD = 3, 8, 9, 11, 5, 20
+_TRAVEL_EXCEEDED, _BAD_JOG, _NO_FEED = 15, 16, 22
+_CRITICAL = 79
 _RESET = "[MSG:Reset to continue]"
-CRITICAL_ALARMS = {
+_CRITICAL_ALARMS = {
     1: _RESET,
     2: _RESET,
     10: "[MSG:Emergency stop - clear, then reset to continue]",
     17: "[MSG:Motor fault - clear, then reset to continue]",
 }
 """Alarms that only a reset ends (alarms.h ``alarm_is_critical``), and what follows them."""
-SOFT_RESET = 0x18
-JOG_CANCEL = 0x85
-MOVING = ("Run", "Jog", "Home")
+_SOFT_RESET = 0x18
+_JOG_CANCEL = 0x85
+_MOVING = ("Run", "Jog", "Home")
 _STATES = ("Idle", "Run", "Hold:0", "Door:0", "Alarm", "Check")
 _SUSPENDED = ("Hold:0", "Door:0")  # no line is read (protocol.c ``protocol_exec_rt_suspend``)
 
@@ -88,7 +88,7 @@ class Firmware:
         self.state = "Idle" if self.state not in ("Run", *_SUSPENDED) else "Alarm"
         zeros = ",".join(["0.000"] * len(self._axes))
         self.offsets = dict.fromkeys(
-            (*(OFFSETS[:6] if self.settings.is_classic else OFFSETS), *POSITIONS), zeros
+            (*(_OFFSETS[:6] if self.settings.is_classic else _OFFSETS), *_POSITIONS), zeros
         )
         self.startup = {0: "", 1: ""}
         self.build = ""
@@ -163,11 +163,11 @@ class Firmware:
     def _receive_byte(self, byte: int) -> None:
         """Take one byte: a real-time command, the end of a line, or a character of it."""
         character = chr(byte)
-        if byte == SOFT_RESET:
+        if byte == _SOFT_RESET:
             self._soft_reset()
         elif self._is_critical and self.settings.is_classic:
             return  # a Grbl 1.1 does nothing, not even a report, and forgets its line (protocol.c)
-        elif byte == JOG_CANCEL:
+        elif byte == _JOG_CANCEL:
             self._cancel_jog()
         elif character in "?!~" and not self._line.startswith("$"):
             self._real_time(character)
@@ -187,7 +187,7 @@ class Firmware:
         if byte in (0x7F, 0x08) and not self.settings.is_classic:
             self._line = self._line[:-1]
         elif byte > (0x1F if self._line else 0x20) and byte < 0x80:  # no blank at its beginning
-            limit = CLASSIC_LINE if self.settings.is_classic else LINE
+            limit = _CLASSIC_LINE if self.settings.is_classic else _LINE
             # The buffer of the firmware has room for the line and the zero at its end.
             self._overflows = self._overflows or len(self._line) >= limit - 1
             self._line = (self._line + chr(byte))[: limit - 1]
@@ -235,7 +235,7 @@ class Firmware:
         overflows, self._overflows = self._overflows, False
         try:
             if overflows:
-                raise RefusedError(TOO_LONG)
+                raise RefusedError(_TOO_LONG)
             if self._ignores_settings and re.match(r"\$\d+=", line):
                 return
             self._execute(line)
@@ -273,7 +273,7 @@ class Firmware:
             self._startup(int(match[1]), text)
         elif name == "X":
             if self._is_critical:
-                raise RefusedError(CRITICAL)
+                raise RefusedError(_CRITICAL)
             self.state = "Idle"
         elif name.startswith("H"):
             self._home(name[1:])
@@ -295,7 +295,7 @@ class Firmware:
         elif name == "J":
             self._jog(text.upper().replace(" ", ""))
         else:
-            raise RefusedError(UNKNOWN)
+            raise RefusedError(_UNKNOWN)
 
     def _report(self, name: str) -> None:
         """Send a report, or one setting by its number."""
@@ -305,7 +305,7 @@ class Firmware:
             self._send(*report())
             return
         if not name.isdigit() or self.settings.is_classic:
-            raise RefusedError(UNKNOWN)
+            raise RefusedError(_UNKNOWN)
         setting = self.settings.named(int(name))
         if setting is None:
             raise RefusedError(53)
@@ -315,28 +315,28 @@ class Firmware:
         """Home all axes, or one where $22 allows it; the answer comes at its end (system.c ``home``)."""
         cycle = int(self.settings.all[22].value)
         if not cycle & 1 or (axes and not cycle & 2):
-            raise RefusedError(NO_HOMING)
+            raise RefusedError(_NO_HOMING)
         self._need_rest()
         try:
             self._motion.home(axes or self._axes)
         except SimulationError:
-            raise RefusedError(NO_HOMING) from None
+            raise RefusedError(_NO_HOMING) from None
         self.state = "Home"
         raise _AnswerLater
 
     def _jog(self, text: str) -> None:
         """Move by a jog, which changes no mode (gcode.c)."""
         if not _BLOCK.fullmatch(text):
-            raise RefusedError(BAD_WORD)
+            raise RefusedError(_BAD_WORD)
         words = dict(_WORDS.findall(text))
         if "F" not in words:
-            raise RefusedError(NO_FEED)
+            raise RefusedError(_NO_FEED)
         if not set(words) & set(self._axes) or self.state not in ("Idle", "Jog"):
-            raise RefusedError(BAD_JOG if self.state in ("Idle", "Jog") else NOT_IDLE)
+            raise RefusedError(_BAD_JOG if self.state in ("Idle", "Jog") else _NOT_IDLE)
         distance = 91 if "G91" in text else 90 if "G90" in text else self._distance
         targets = self._targets(words, distance, is_machine="G53" in text)
         if self._motion.leaves_travel(targets):
-            raise RefusedError(TRAVEL_EXCEEDED)
+            raise RefusedError(_TRAVEL_EXCEEDED)
         self._move(targets, float(words["F"]) * self._factor(text), is_jog=True)
 
     def _move(self, targets: dict[str, float], feed: float | None, *, is_jog: bool = False) -> None:
@@ -371,7 +371,7 @@ class Firmware:
                 self._answer_line(line)
         elif self.state in ("Run", "Jog") and self._is_moved:
             self.state = self._motion.state
-        self._is_moved = self._motion.state in MOVING
+        self._is_moved = self._motion.state in _MOVING
 
     def _status(self) -> str:
         places = ",".join(f"{place:.3f}" for place in self._motion.positions)
@@ -383,14 +383,14 @@ class Firmware:
         return f"<{self.state}|MPos:{places}|FS:{self._motion.feed:.0f},0{homed}>"
 
     def _need_rest(self) -> None:
-        if self.state in MOVING:
-            raise RefusedError(NOT_IDLE)
+        if self.state in _MOVING:
+            raise RefusedError(_NOT_IDLE)
 
     def _startup(self, number: int, line: str) -> None:
         """Store a start-up line, which is executed first (``set_startup_line``)."""
         self._need_rest()
         if number not in self.startup:
-            raise RefusedError(UNKNOWN)
+            raise RefusedError(_UNKNOWN)
         line = line.upper().replace(" ", "")
         if line:
             self._block(line)
@@ -399,7 +399,7 @@ class Firmware:
 
     def _reset(self, what: str) -> None:
         if what not in ("$", "#", "*", "&"):
-            raise RefusedError(UNKNOWN)
+            raise RefusedError(_UNKNOWN)
         self._memory.replace(MEMORY, b"")
         self._boot()
         self._ignores_settings = True
@@ -407,23 +407,23 @@ class Firmware:
     def _block(self, line: str) -> None:
         """Execute a block of G-code, of which only units and offsets matter here."""
         if self.state == "Alarm":
-            raise RefusedError(LOCKED)
+            raise RefusedError(_LOCKED)
         if match := re.match(r"G(20|21)", line):
             self._unit = int(match[1])
             line = line[3:]
         match = re.fullmatch(rf"G10L2P([1-9])({_BLOCK.pattern})", line)
         if match is None:
             if not _BLOCK.fullmatch(line):
-                raise RefusedError(BAD_WORD)
+                raise RefusedError(_BAD_WORD)
             self._words(line)
             return
-        name = OFFSETS[int(match[1]) - 1]
+        name = _OFFSETS[int(match[1]) - 1]
         if name not in self.offsets:
             raise RefusedError(OUT_OF_RANGE)
         at = dict(zip(self._axes, map(float, self.offsets[name].split(",")), strict=True))
         for axis, number in re.findall(rf"([A-Z])({_NUMBER})", match[2]):
             if axis not in at:
-                raise RefusedError(BAD_WORD)
+                raise RefusedError(_BAD_WORD)
             at[axis] = float(number) * (25.4 if self._unit == 20 else 1.0)
         self.offsets[name] = ",".join(f"{value:.3f}" for value in at.values())
         self.is_writing = True
@@ -439,7 +439,7 @@ class Firmware:
         if not targets or codes & _NO_MOTION:
             return
         if self._mode == 1 and not self._feed:
-            raise RefusedError(NO_FEED)
+            raise RefusedError(_NO_FEED)
         if self._motion.leaves_travel(targets):
             self._motion.cancel()
             self._alarm(2)
@@ -458,9 +458,9 @@ class Firmware:
         """
         self.state = "Alarm"
         self._send(f"ALARM:{number}")
-        self._is_critical = number in CRITICAL_ALARMS
+        self._is_critical = number in _CRITICAL_ALARMS
         if self._is_critical:
-            self._send(CRITICAL_ALARMS[number])
+            self._send(_CRITICAL_ALARMS[number])
 
     def _reports(self) -> Mapping[str, Callable[[], Iterator[str]]]:
         return FirmwareReports(

@@ -16,10 +16,10 @@ from amp_studio.sim import AxisLaw, AxisParameters, ParameterValue, SimulatedAxi
 
 from .stored_settings import CLASSIC, FAMILY, StoredSettings
 
-PHASES = range(44, 50)
+_PHASES = range(44, 50)
 """Settings with the axes that are homed together, in their order (limits of the classic build: Z,
 then X and Y)."""
-CLASSIC_PHASES = (0b100, 0b011)
+_CLASSIC_PHASES = (0b100, 0b011)
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ class GrblMotion:
         self.planned |= {name: axis.command for name, axis in self._machine.axes.items()}
 
     def _phases(self, axes: str) -> list[tuple[str, ...]]:
-        masks = CLASSIC_PHASES if self._settings.is_classic else [self._whole(number) for number in PHASES]
+        masks = _CLASSIC_PHASES if self._settings.is_classic else [self._whole(number) for number in _PHASES]
         cycles = [tuple(a for n, a in enumerate(self._axes) if mask >> n & 1 and a in axes) for mask in masks]
         return [cycle for cycle in cycles if cycle]
 

@@ -21,7 +21,7 @@ BAD_NUMBER, NEGATIVE, SOFT_LIMITS_NEED_HOMING, OUT_OF_RANGE, NOT_THERE = 2, 4, 1
 _TYPES = {"boolean": 0, "bits": 1, "choice": 3, "integer": 5, "real": 6, "text": 7}
 _AXES, _DECIMAL, _TEXT = 4, 6, 7
 _GROUP_BASE = 43
-AXIS_RATES = range(180, 200)
+_AXIS_RATES = range(180, 200)
 """There only while bit 9 of $22 is set."""
 _ZERO_OR = (392, 393, 394, 539, 673)
 """Delays of 0, or of half a second and more (S2446)."""
@@ -137,7 +137,7 @@ class StoredSettings:
         """Yield the settings there are now, by number."""
         has_rates = bool(self._whole(22) & 1 << 9)
         for number, setting in sorted(self.all.items()):
-            hidden = (24, 25) if has_rates and not self.is_classic else AXIS_RATES
+            hidden = (24, 25) if has_rates and not self.is_classic else _AXIS_RATES
             if number not in hidden:
                 yield setting
 
@@ -201,7 +201,7 @@ def _delivered(machine: str, axes: str) -> Iterator[StoredSetting]:
         if not number or (address[1] and address[1] not in axes):
             continue
         parameter, value = schema.parameters[address[0]], file.values.get(address)
-        if value is None and int(number) not in AXIS_RATES:
+        if value is None and int(number) not in _AXIS_RATES:
             continue  # of another build
         setting = _setting(parameter, int(number), address[1], axes, groups[parameter.id])
         if value is not None:

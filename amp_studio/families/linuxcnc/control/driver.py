@@ -36,7 +36,7 @@ from amp_studio.transfer.links import Endpoint
 from .content import MAIN, Configuration, ConfigurationContent
 from .running import is_running, status_of, values_in_use
 
-PROTOCOL = "configuration"
+_PROTOCOL = "configuration"
 IN_USE = "A LinuxCNC runs with this configuration: what is written counts from its next start."
 _MAX_BYTES = 20_000_000
 
@@ -72,7 +72,7 @@ class ConfigurationDriver(ConfigurationContent):
         file = self.decode(content)
         return ControlIdentity(
             family=FAMILY,
-            protocol=PROTOCOL,
+            protocol=_PROTOCOL,
             name=file.header.name,
             revision=file.machine,
             signature=load_schema(FAMILY).signature,
@@ -135,7 +135,7 @@ class ConfigurationDriver(ConfigurationContent):
 
     def status(self) -> ControlStatus:
         """Return positions, following errors and states of the program that runs; raises TransferError."""
-        return status_of(self.decode(self.fetch()), is_running(self.path), PROTOCOL)
+        return status_of(self.decode(self.fetch()), is_running(self.path), _PROTOCOL)
 
     def in_use(self, content: bytes) -> dict[Address, Value]:
         """Return the values that the program uses which runs with this configuration; raises TransferError.

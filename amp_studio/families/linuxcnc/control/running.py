@@ -20,7 +20,7 @@ PROCESSES = Path("/proc")
 TASK = b"milltask"
 """The program that reads the configuration; the start script gives it ``-ini`` and the path (LN948)."""
 SECONDS = 3.0
-DIGITS = 1e-6
+_DIGITS = 1e-6
 """halcmd prints seven digits."""
 _STATES = {
     "homed": "homed",
@@ -101,7 +101,7 @@ def _in_use(file: ParameterFile, address: Address, value: Value, text: str) -> V
     except InvalidValueError as error:
         raise TransferError(f"the running LinuxCNC shows {text[:20]} for a value: {error}", "") from None
     if isinstance(found.value, (int, float)) and isinstance(value.value, (int, float)):
-        return value if isclose(found.value, value.value, rel_tol=DIGITS) else found
+        return value if isclose(found.value, value.value, rel_tol=_DIGITS) else found
     return value if found.value == value.value else found
 
 

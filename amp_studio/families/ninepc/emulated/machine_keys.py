@@ -20,7 +20,7 @@ from amp_studio.transfer import ControlStatus, ImageError, decode_image
 from amp_studio.transfer.emulated import Control, screen_status
 from amp_studio.transfer.house import Flags
 
-MUST_HOME, NOT_ALLOWED = "MUST HOME AXIS", "HOMING NOT ALLOWED"
+_MUST_HOME, _NOT_ALLOWED = "MUST HOME AXIS", "HOMING NOT ALLOWED"
 _WORD = re.compile(r"([A-Z])\s*([+-]?[0-9]*\.?[0-9]+)", re.IGNORECASE)
 _BLOCK = re.compile(r"G(0|00|1|01|28|30)((?:\s*[A-Z]\s*[+-]?[0-9]*\.?[0-9]+)+)\s*", re.IGNORECASE)
 
@@ -72,7 +72,7 @@ class MachineKeys:
                 return self._jog(rest.split())
             if verb == "manual-home":
                 if self._machine.is_busy:
-                    raise ValueError(NOT_ALLOWED)
+                    raise ValueError(_NOT_ALLOWED)
                 return f"homing {self._machine.home(rest.strip())}"
             return self._mdi(rest)
         except SimulationError as error:
@@ -141,7 +141,7 @@ class MachineKeys:
 
     def _refuse_unhomed(self, words: dict[str, float]) -> None:
         if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
-            raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
+            raise ValueError(f"{_MUST_HOME} {', '.join(unhomed)}")
 
     def _secondary(self, words: dict[str, float]) -> str:
         """Go over the point to G30 Secondary Home Position (5-17). ASSUMED: at rapid, as G28 does (5-13)."""

@@ -29,7 +29,7 @@ from amp_studio.schema import Address, InvalidValueError, Value, read_exact, res
 from amp_studio.transfer import decode_image, encode_image
 from amp_studio.transfer.emulated import Control
 
-IN_ESTOP = ("servo.reversal_error", "home.calibration")
+_IN_ESTOP = ("servo.reversal_error", "home.calibration")
 """What is changed in E-Stop only (pages 36-2 and 36-4)."""
 OUT_OF_RANGE, INVALID = "PARAM VALUE OUT OF RANGE", "INVALID INPUT VALUE"
 
@@ -80,7 +80,7 @@ class OnlineAmp:
             file.set_checked(with_followers(file, {address: value}))
         except RangeError:
             raise ValueError(OUT_OF_RANGE) from None
-        self._store(control, file, in_estop=address[0] in IN_ESTOP)
+        self._store(control, file, in_estop=address[0] in _IN_ESTOP)
         return f"{number} {show_value(parameter, file.get(address))}"
 
     def _value(self, file: ParameterFile, address: Address, words: list[str]) -> Value:

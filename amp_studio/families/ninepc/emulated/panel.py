@@ -23,8 +23,8 @@ from .online_amp import OnlineAmp
 from .power_up import CORRECTED, MAX_AXES, corrected_limits, estop_reasons
 
 MODIFIED = "AMP HAS BEEN MODIFIED BY PATCH AMP"
-NOT_FOUND = "PARAMETER NUMBER NOT FOUND"
-SECOND_PASSWORD = "LOCK"  # noqa: S105  # printed on page 37-2
+_NOT_FOUND = "PARAMETER NUMBER NOT FOUND"
+_SECOND_PASSWORD = "LOCK"  # noqa: S105  # printed on page 37-2
 _CHARACTERS = 6
 
 
@@ -123,7 +123,7 @@ class NinePcPanel:
     def _open(self, control: Control, word: str) -> str:
         if not self._has_level_0:
             raise ValueError("the softkey {PATCH AMP} is not visible at this access level (page 37-2)")
-        if word != SECOND_PASSWORD:
+        if word != _SECOND_PASSWORD:
             raise ValueError("the second password is another one (page 37-2)")
         _amp_of(control)
         self._edited = control.image
@@ -140,10 +140,10 @@ class NinePcPanel:
         try:
             address = file.find(number)
         except UnknownParameterError:
-            raise ValueError(NOT_FOUND) from None
+            raise ValueError(_NOT_FOUND) from None
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         if not parameter.patchable:
-            raise ValueError(NOT_FOUND)
+            raise ValueError(_NOT_FOUND)
         number = visible(number)
         if value is None:
             return f"{number} not set"

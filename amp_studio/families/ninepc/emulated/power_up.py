@@ -17,7 +17,7 @@ from amp_studio.schema import Address, StorageError, stored_unit, to_stored, wri
 AXES = tuple("12345678")
 MAX_AXES = 8
 """Of the series, with spindles; which of them were ordered decides for one control (page 3-1)."""
-MAX_SPINDLES = 2
+_MAX_SPINDLES = 2
 _LIMITS = (
     "servo.inposition_band",
     "servo.gain_break_point",
@@ -43,8 +43,8 @@ def estop_reasons(file: ParameterFile, axes: int) -> Iterator[str]:
     spindles = [axis for axis in here if _choice(file, ("axis.type", axis)) == "spindle"]
     if len(here) > axes:
         yield f"{len(here)} axes are configured and the control supports {axes} (page 3-1)"
-    if len(spindles) > MAX_SPINDLES:
-        yield f"{len(spindles)} spindles are configured and the control supports {MAX_SPINDLES} (page 3-1)"
+    if len(spindles) > _MAX_SPINDLES:
+        yield f"{len(spindles)} spindles are configured and the control supports {_MAX_SPINDLES} (page 3-1)"
     for axis in here:
         if _choice(file, ("servo.loop_type", axis)) in ("", "none"):
             yield f"axis {axis} has a type and no Servo Loop Type (page 3-7)"

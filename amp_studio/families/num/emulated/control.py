@@ -20,17 +20,17 @@ from .manual_keys import VERBS, NumKeys
 from .parameter_memory import ParameterMemory, TableError, TableHeader, content_of
 
 XON, XOFF = 0x11, 0x13
-MENU = "MACHINE SETUP DATA"
+_MENU = "MACHINE SETUP DATA"
 READY = "READY?"
 FILE_ERROR = "FILE ERROR (INCORRECT TAPE?)"
-LONGEST = 256  # bytes of a line of a table; its length has two hexadecimal digits
-LINES_A_STOP = 40  # lines after which the control stops the peripheral to work on them (assumed)
+_LONGEST = 256  # bytes of a line of a table; its length has two hexadecimal digits
+_LINES_A_STOP = 40  # lines after which the control stops the peripheral to work on them (assumed)
 BUFFER = 4_096  # bytes it still takes after it has stopped the peripheral; more are lost (assumed)
 PIECE = 128  # bytes it sends in one turn
 
 Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
 Job = Literal["load", "unload", "verify"]
-COMMANDS = (
+_COMMANDS = (
     "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line"
     f" BAUD STOP, patch P9N0=FF, reset, status, quit, {NumKeys.words}"
 )
@@ -139,7 +139,7 @@ class NumControl:
         elif character != ord("\r") or self._line.endswith(b"\r"):
             self._line.append(character)
             # Three more for ";" and the two digits of the length.
-            if len(self._line) > LONGEST + 3:
+            if len(self._line) > _LONGEST + 3:
                 self._fail("a line without an end")
 
     def _end(self) -> None:
@@ -171,7 +171,7 @@ class NumControl:
         except OSError as error:
             self._fail(f"the memory takes nothing more: {error.strerror}")
             return
-        if self._doing == "reading" and self._lines % LINES_A_STOP == 0:
+        if self._doing == "reading" and self._lines % _LINES_A_STOP == 0:
             self._stop_peripheral()
 
     def _first(self, text: str) -> None:
@@ -240,7 +240,7 @@ class NumControl:
                 return self._unload()
             case "exit" | "reset" if not rest:
                 self._to_menu(silent=True)
-                return MENU
+                return _MENU
             case "status" if not rest:
                 return (
                     f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity"
@@ -254,7 +254,7 @@ class NumControl:
             case "reference" if re.fullmatch("[0-9]{8}", rest):
                 return self._reference(rest)
             case "comment" if rest.isascii() and rest.isprintable() and self._doing == "asking":
-                self._start = f"{self._start[:9]} {rest}"[: LONGEST - 1]
+                self._start = f"{self._start[:9]} {rest}"[: _LONGEST - 1]
                 return f"dialogue line: {self._start}"
             case "parity" if rest in ("none", "even", "odd"):
                 self._parity = cast("Parity", rest)
@@ -264,11 +264,11 @@ class NumControl:
                 return line
             case "patch" if found := re.fullmatch(r"P([0-9]{1,4})N([0-9]{1,4})=(.*)", rest):
                 return self._patch(int(found[1]), int(found[2]), found[3])
-        raise ValueError(f"not possible now, or no command: {COMMANDS}")
+        raise ValueError(f"not possible now, or no command: {_COMMANDS}")
 
     def _select(self, job: Job) -> str:
         if self._doing != "menu":
-            raise ValueError(f"the control is not in the {MENU} menu (exit)")
+            raise ValueError(f"the control is not in the {_MENU} menu (exit)")
         self._job, self._doing = job, "ready"
         return f"dialogue line: {READY}"
 
@@ -304,7 +304,7 @@ class NumControl:
     def _patch(self, parameter: int, word: int, text: str) -> str:
         """Set one word as an operator does in the menu; returns it as the control then has it."""
         if self._doing != "menu":
-            raise ValueError(f"the control is not in the {MENU} menu (exit)")
+            raise ValueError(f"the control is not in the {_MENU} menu (exit)")
         words = self._parameters.words.get(parameter, [])
         if word >= len(words):
             raise ValueError(f"there is no P{parameter}N{word}")
@@ -323,7 +323,7 @@ class NumControl:
         if self._job == "unload":
             self._out.clear()
         if not silent:
-            self._say(MENU)
+            self._say(_MENU)
 
 
 def _file_of(content: bytes) -> ParameterFile:

@@ -14,7 +14,7 @@ from amp_studio.transfer.emulated import Memory
 
 TABLE = "table"
 """The words as of the last load that came to its end; a table as the control unloads it."""
-TAKEN = "taken"
+_TAKEN = "taken"
 """Lines of a load since then, in the order in which they came."""
 _LINE = re.compile(rb"([ -~]*);([0-9A-F]{2})")
 _HEADER = re.compile(r"P([0-9]{1,4})N([0-9]{1,4}):t([0-9])n([0-9]{1,4})")
@@ -50,7 +50,7 @@ def _decimal(low: int, high: int) -> WordType:
     return WordType(re.compile("[+-]?[0-9]{1,10}"), 10, low, high)
 
 
-TYPES = {
+_TYPES = {
     0: _hex(8),
     1: _decimal(-32_768, 32_767),
     2: _decimal(-99_999_999, 99_999_999),
@@ -102,7 +102,7 @@ class ParameterMemory:
         self._take_all(delivered if kept is None else kept)
         if kept is None:
             memory.replace(TABLE, delivered)
-        self._replay(memory.read(TAKEN) or b"")
+        self._replay(memory.read(_TAKEN) or b"")
 
     def _take_all(self, table: bytes) -> None:
         """Take the words of a stored table; raises ValueError for one that this program has not written."""
@@ -152,7 +152,7 @@ class ParameterMemory:
 
     def fault_of(self, header: TableHeader, data: list[str]) -> str:
         """Return why these words cannot be taken, "" where they can."""
-        words, kind = self.words[header.parameter], TYPES[self.types[header.parameter]]
+        words, kind = self.words[header.parameter], _TYPES[self.types[header.parameter]]
         if len(data) > _MAX_LINE_VALUES:
             return f"more than {_MAX_LINE_VALUES} values"
         if header.first + len(data) > len(words):
@@ -173,7 +173,7 @@ class ParameterMemory:
         if fault := self.fault_of(header, data):
             raise TableError(fault)
         # On the disk before it counts: a load that is cut off leaves what was taken so far.
-        self._memory.append(TAKEN, measured(f"{header.spelled}#{' '.join(data)}"))
+        self._memory.append(_TAKEN, measured(f"{header.spelled}#{' '.join(data)}"))
         self.take(header, data)
 
     def differs(self, header: TableHeader, data: list[str]) -> int | None:
@@ -190,7 +190,7 @@ class ParameterMemory:
         # The table first: if the power goes before the lines are removed, they are replayed, which changes
         # nothing.
         self._memory.replace(TABLE, b"".join(self.lines()) + b"\x13")
-        self._memory.remove(TAKEN)
+        self._memory.remove(_TAKEN)
 
     def lines(self, start: str = "") -> Iterator[bytes]:
         """Yield the lines of the table as it is unloaded;

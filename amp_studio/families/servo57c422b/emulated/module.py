@@ -22,8 +22,8 @@ AUTO_ACKNOWLEDGE, INTERRUPT_RESET, MODE, COMMAND, COMMAND_2 = 63, 64, 65, 66, 67
 ENABLE_STATUS, ENABLE_FAULT, STATUS, FAULT, SOURCE_STATUS, SOURCE_FAULT = 68, 69, 72, 73, 104, 105
 FEEDBACK, VERSION = 74, 99
 
-LOOP = 1 << 0  # enable control loop (page 4-24)
-VELOCITY_CONTROL, NEGATIVE, INCREMENTAL = 1 << 2, 1 << 4, 1 << 5  # pages 4-24 and 4-25
+_LOOP = 1 << 0  # enable control loop (page 4-24)
+_VELOCITY_CONTROL, _NEGATIVE, _INCREMENTAL = 1 << 2, 1 << 4, 1 << 5  # pages 4-24 and 4-25
 MOVE, HOME, STOP, DEFAULTS, LATCH = 1 << 0, 1 << 2, 1 << 6, 1 << 9, 1 << 11  # pages 4-28 to 4-32
 DEFINE, CHANGE_VELOCITY = (
     1 << 1,
@@ -78,7 +78,7 @@ class Module:
         system fault (page 4-38).
         """
         for axis in AXES.values():
-            self.words[axis + MODE] &= ~LOOP & 0xFFFF
+            self.words[axis + MODE] &= ~_LOOP & 0xFFFF
             self._follow_mode(axis, 0)
             self._set(axis + FAULT, SYSTEM)
 
@@ -149,7 +149,7 @@ class Module:
 
     def _follow_mode(self, axis: int, before: int) -> None:
         """Switch the control loop; toggled on, it reads the setups and resets faults (page 4-24)."""
-        is_on, was_on = bool(self.words[axis + MODE] & LOOP), bool(before & LOOP)
+        is_on, was_on = bool(self.words[axis + MODE] & _LOOP), bool(before & _LOOP)
         if is_on and not was_on:
             self._take_setups(axis)
             self.words[axis + FAULT] = 0
@@ -164,11 +164,11 @@ class Module:
     def _follow_velocity(self, axis: int, before: int) -> None:
         """Begin or end velocity control; a change of its direction alone is not seen at a limit (4-25)."""
         mode, motion = self.words[axis + MODE], self._motion[axis]
-        if mode & VELOCITY_CONTROL and not before & VELOCITY_CONTROL:
+        if mode & _VELOCITY_CONTROL and not before & _VELOCITY_CONTROL:
             self._run(axis)
-        elif before & VELOCITY_CONTROL and not mode & VELOCITY_CONTROL:
+        elif before & _VELOCITY_CONTROL and not mode & _VELOCITY_CONTROL:
             motion.stop(self.words)
-        elif mode & VELOCITY_CONTROL and (mode ^ before) & NEGATIVE and not motion.is_stopped:
+        elif mode & _VELOCITY_CONTROL and (mode ^ before) & _NEGATIVE and not motion.is_stopped:
             self._run(axis)
 
     def _run(self, axis: int) -> None:
@@ -179,7 +179,7 @@ class Module:
         if motion.simulated:
             motion.simulated.alarm = None
         motion.limit(self.words)
-        motion.run(-1.0 if self.words[axis + MODE] & NEGATIVE else 1.0, self.words)
+        motion.run(-1.0 if self.words[axis + MODE] & _NEGATIVE else 1.0, self.words)
         self._begun(axis)
 
     def _take_setups(self, axis: int) -> None:
@@ -236,7 +236,7 @@ class Module:
         """Move an axis to the position of the registers, or by it."""
         motion, target = self._motion[axis], float(double(self.words, axis + POSITION))
         motion.bind(self.words)
-        if self.words[axis + MODE] & INCREMENTAL:
+        if self.words[axis + MODE] & _INCREMENTAL:
             target += motion.simulated.command if motion.simulated else motion.commanded
         if not motion.limit(self.words):
             self._set(axis + FAULT, ILLEGAL)

@@ -12,9 +12,9 @@ from amp_studio.transfer.links import Endpoint
 
 from .module import AXES, NAME, REGISTERS, Module
 
-LONGEST = 80  # bytes of a request
-MAX_REGISTERS = 32  # registers of one answer
-COMMANDS = "patch R3=160, show R72, fault BIT X|Y, fault drive X|Y, stop-all, power, status, quit"
+_LONGEST = 80  # bytes of a request
+_MAX_REGISTERS = 32  # registers of one answer
+_COMMANDS = "patch R3=160, show R72, fault BIT X|Y, fault drive X|Y, stop-all, power, status, quit"
 
 _REQUEST = re.compile(
     rb"([0-9]{1,3}) (ID|R ([0-9]{1,4}) ([0-9]{1,2})|W ([0-9]{1,4}) ([0-9]{1,5}))\*([0-9A-F]{4})"
@@ -43,7 +43,7 @@ class Rack:
                 self._execute(bytes(self._line).removesuffix(b"\r"))
                 self._line.clear()
             # One character too many is kept, so that a line that is too long is no request.
-            elif len(self._line) <= LONGEST:
+            elif len(self._line) <= _LONGEST:
                 self._line.append(byte)
 
     def advance(self, duration: float) -> None:
@@ -69,7 +69,7 @@ class Rack:
             return f"ID {NAME}"
         if found[3] is not None:
             first, count = int(found[3]), int(found[4])
-            if not 1 <= count <= MAX_REGISTERS or first + count > REGISTERS:
+            if not 1 <= count <= _MAX_REGISTERS or first + count > REGISTERS:
                 return "E there are no such registers"
             return f"R {first} " + " ".join(str(self.module.read(r)) for r in range(first, first + count))
         register, word = int(found[5]), int(found[6])
@@ -87,7 +87,7 @@ class Rack:
             match = re.fullmatch(pattern, f"{verb} {rest.strip()}".rstrip())
             if match and (answer := order(self, *match.groups())):
                 return answer
-        raise ValueError(f"{quoted(line)} is no command: {COMMANDS}")
+        raise ValueError(f"{quoted(line)} is no command: {_COMMANDS}")
 
     # Each order returns its answer; an empty one where there is no such register, word or bit.
 

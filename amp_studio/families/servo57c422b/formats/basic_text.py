@@ -22,7 +22,7 @@ _TOKEN = re.compile(
 )
 
 
-LONGEST_LINE = 5000
+_LONGEST_LINE = 5000
 """Characters of a line with all that it goes on in."""
 
 
@@ -102,8 +102,8 @@ def read_lines(text: str) -> Iterator[BasicLine]:
         if not begun:
             first = n
         begun.append(line)
-        if sum(map(len, begun)) > LONGEST_LINE:
-            raise FormatError(f"the line is longer than {LONGEST_LINE} characters", first)
+        if sum(map(len, begun)) > _LONGEST_LINE:
+            raise FormatError(f"the line is longer than {_LONGEST_LINE} characters", first)
         # In a remark an & is text.
         if line.rstrip().endswith("&") and not _ends_in_remark(line):
             continue

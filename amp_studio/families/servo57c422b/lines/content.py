@@ -31,7 +31,7 @@ _NAMED = 5
 
 
 @cache
-def known_registers() -> Registers:
+def _known_registers() -> Registers:
     """Return the registers of the family."""
     schema = load_schema(FAMILY)
     return registers_of(schema, schema.family.default_machine)
@@ -40,7 +40,7 @@ def known_registers() -> Registers:
 @cache
 def settings() -> tuple[int, ...]:
     """Return the registers that a content has, by rising number."""
-    known = known_registers()
+    known = _known_registers()
     return tuple(
         register
         for register in sorted(known.claims)
@@ -82,12 +82,12 @@ class RegisterContent(TakesAllOrRefuses):
 
     def decode(self, content: bytes) -> ParameterFile:
         """Return what the registers mean; raises ImageError."""
-        values = RegisterValues(known_registers(), keep_unknown=True)
+        values = RegisterValues(_known_registers(), keep_unknown=True)
         try:
             for register, word in words_of_content(content).items():
                 if any(
-                    known_registers().parameter(a).access != "read"
-                    for a in known_registers().claims[register]
+                    _known_registers().parameter(a).access != "read"
+                    for a in _known_registers().claims[register]
                 ):
                     values.take(Written(register, word, True, 1, 0, 0, 0))
             values.settle()
@@ -99,7 +99,7 @@ class RegisterContent(TakesAllOrRefuses):
         """Return the registers with the values of a file in them; raises ImageError."""
         words = words_of_content(current)
         try:
-            contents = contents_of(file, known_registers())
+            contents = contents_of(file, _known_registers())
         except FormatError as error:
             raise ImageError(error.what) from None
         for each in contents:

@@ -17,12 +17,12 @@ from amp_studio.transfer import (
 from amp_studio.transfer.links import Link, LinkError
 
 MAX_REGISTERS = 32  # registers of one answer
-LONGEST = 320  # bytes of a line
-TRIES = 6  # of one request
+_LONGEST = 320  # bytes of a line
+_TRIES = 6  # of one request
 LINES = 3  # times a line that is cut is made again for one request
-ANSWER_WAIT = 1.0  # seconds
+_ANSWER_WAIT = 1.0  # seconds
 PAUSE = 0.3
-NUMBERS = 1_000
+_NUMBERS = 1_000
 
 _ANSWER = re.compile(rb"([0-9]{1,3}) ([!-~][ -~]*)\*([0-9A-F]{4})")
 
@@ -85,7 +85,7 @@ class RegisterLine:
         """Return what follows ``head`` in the answer."""
         fault: LinkError | None = None
         cuts = 0
-        for _ in range(TRIES):
+        for _ in range(_TRIES):
             self._waiting.look()
             try:
                 answer = self._tried(request)
@@ -112,13 +112,13 @@ class RegisterLine:
         if link is None:
             link = self._link = self._open_link(self._waiting.look)
             link.write(b"\r\n")  # ends half a line that was left
-        self._number = (self._number + 1) % NUMBERS
+        self._number = (self._number + 1) % _NUMBERS
         link.write(framed(self._number, request))
-        end = self._waiting.now() + ANSWER_WAIT
+        end = self._waiting.now() + _ANSWER_WAIT
         while (left := end - self._waiting.now()) > 0:
             *lines, self._buffer = (self._buffer + self._waiting.read(link, left)).split(b"\r\n")
             # Noise without a line end must not fill the memory.
-            self._buffer = self._buffer[-LONGEST:]
+            self._buffer = self._buffer[-_LONGEST:]
             for line in lines:
                 found = unframed(line)
                 # The answer to an earlier try, which came too late, has another number and must not be
