@@ -255,18 +255,19 @@ class _Placing:
     def levels(self) -> None:
         """Name levels at the right end of their lines; those that would overlap share one text."""
         frame = self._frame
-        x, found = frame.left + frame.width - 6.0, list[tuple[float, str]]()
+        x, found = frame.left + frame.width - 6.0, list[tuple[float, float, str]]()
         for mark in sorted(frame.scene.levels, key=lambda each: each.at):
             y, name = frame.at((0.0, mark.at))[1], mark.name
             if not name or not frame.top <= y <= frame.top + frame.height:
                 continue
-            # From the bottom up: one that is less than a line above the one before shares its text.
-            if found and found[-1][0] - y < self._line:
-                y, name = found[-1][0], f"{found.pop()[1]}, {name}"
-            found.append((y, name))
-        for y, name in found:
             # One at the very top is named below its line, or its name would be in the heading of the panel.
             base = y + 0.9 * self._line if y - frame.top < self._line + 4.0 else y - 4.0
+            # From the bottom up: one that is less than a line above the one before shares its text.
+            if found and found[-1][0] - base < self._line:
+                base, y, before = found.pop()
+                name = f"{before}, {name}"
+            found.append((base, y, name))
+        for base, y, name in found:
             self.placed.append(Label(self._box(x, base, Text((x, y), name), "", "end"), name, over=True))
 
     def marks(self) -> None:

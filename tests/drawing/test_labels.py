@@ -1,6 +1,7 @@
 """Texts of pictures lie on no other text, in whatever size a picture is drawn."""
 
 import re
+from dataclasses import replace
 from itertools import combinations, pairwise
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 from amp_studio.drawing import scene_svg
 from amp_studio.drawing.frame import Placement
 from amp_studio.drawing.labels import Box, labels_of
-from amp_studio.drawing.scene import Scale, Scene, Text
+from amp_studio.drawing.scene import NamedPlace, Scale, Scene, Text
 from amp_studio.drawing.svg import LINE, measured
 from amp_studio.files import open_file
 from amp_studio.pictures import pictures_of
@@ -78,6 +79,18 @@ def test_names_at_one_point_go_away_from_it_with_a_line_to_each():
     for label in names:
         if label.leader:
             assert label.box.nearest(label.leader[0]) == label.leader[1]
+
+
+@pytest.mark.parametrize("apart", range(1, 45, 2))
+def test_two_limits_near_the_top_of_a_panel_are_both_read_however_near_they_are(apart: int) -> None:
+    for top in range(40):
+        levels = (NamedPlace("limit 10 mm", 100.0 - top), NamedPlace("suppression 9 mm", 100.0 - top - apart))
+        scene = replace(crowd(0), look="panel", y=Scale("Y", "mm", 0.0, 100.0), levels=levels)
+        frame = Placement(scene, 40.0, 20.0, 400.0, 100.0)  # a pixel is a millimetre
+        found = labels_of(frame, 480.0, 160.0, measured, LINE)
+        names = " ".join(label.text for label in found.placed if "mm" in label.text and label.over)
+        assert all(level.name in names for level in levels)
+        assert overlapping(found) == [], top
 
 
 def test_a_crowd_loses_its_values_then_texts_and_the_tips_have_them_all():
