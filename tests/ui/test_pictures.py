@@ -9,7 +9,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
 from amp_studio.schema import Value
-from amp_studio.ui.pictures.page import PicturesPage
+from amp_studio.ui.base.theme import GAP2
+from amp_studio.ui.pictures.page import MIN_CARD, PicturesPage
 
 from .conftest import WAIT_MS, action
 
@@ -258,6 +259,14 @@ def test_each_handle_is_an_accessible_child_with_its_name_and_value(pictures):
     assert len(canvas._spots) == len(canvas.scene.handles)
 
 
+def _end(page):
+    return max(card.geometry().bottom() for card in page.cards.values() if not card.isHidden())
+
+
+def _lowest(page, names):
+    return min(page.cards[name].height() for name in names)
+
+
 def test_all_pictures_are_side_by_side_where_there_is_room_and_one_alone_where_not(workspace, qtbot):
     page = PicturesPage(workspace)
     qtbot.addWidget(page)
@@ -266,8 +275,13 @@ def test_all_pictures_are_side_by_side_where_there_is_room_and_one_alone_where_n
     def seen():
         return [name for name, card in page.cards.items() if not card.isHidden()]
 
-    page.resize(1000, 500)
-    qtbot.waitUntil(lambda: seen() == ["travel", "ramps", "gears", "jog"], timeout=WAIT_MS)
+    for height, names in ((820, ["travel", "ramps", "gears", "jog"]), (613, ["travel", "ramps", "gears"])):
+        page.resize(1000, height)
+        qtbot.waitUntil(lambda names=names: seen() == names, timeout=WAIT_MS)
+        qtbot.waitUntil(lambda: page.footer.y() - _end(page) <= 2 * GAP2, timeout=WAIT_MS)  # no room is wasted
+        qtbot.waitUntil(lambda names=names: _lowest(page, names) >= MIN_CARD[1], timeout=WAIT_MS)
+    page.resize(1000, 430)
+    qtbot.waitUntil(lambda: seen() == ["travel", "ramps"], timeout=WAIT_MS)
     page.resize(600, 500)
     qtbot.waitUntil(lambda: seen() == ["travel"], timeout=WAIT_MS)
 

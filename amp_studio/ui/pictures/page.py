@@ -40,7 +40,7 @@ passing by on the way to another one costs nothing."""
 MARK_MS = 60
 """Milliseconds until the handle of a value that was selected elsewhere is shown; likewise."""
 SIDE = 3
-"""Pictures beside the first one."""
+"""Pictures beside the first one, at most."""
 
 
 class PicturesPage(SidePage):
@@ -136,9 +136,9 @@ class PicturesPage(SidePage):
         """Return how many pictures there is room for, and whether the first one is larger than the others."""
         if self._filter != ALL:
             return 1, False
-        if self.width() >= TWO_COLUMNS and self.height() >= LOW:
-            return 1 + SIDE, True
         across, down = self.width() // MIN_CARD[0], (self.height() - AROUND) // MIN_CARD[1]
+        if self.width() >= TWO_COLUMNS and self.height() >= LOW:
+            return 1 + min(max(down, 1), SIDE), True
         return min(max(across if self.height() < LOW else down, 1), 1 + SIDE), False
 
     def _names_for(self, count: int) -> list[str]:
@@ -176,9 +176,8 @@ class PicturesPage(SidePage):
     def _stretch(self, count: int, *, is_large: bool, is_row: bool) -> None:
         """Divide the room among the cards of a row or a column, or the large one and those beside it."""
         for column in range(1 + SIDE):
-            used = column < count
-            self.grid.setColumnStretch(column, int(used if is_row else column == 0))
-            self.grid.setRowStretch(column, int(used and not is_row))
+            self.grid.setColumnStretch(column, int(column < count if is_row else column == 0))
+            self.grid.setRowStretch(column, int(column < count - is_large and not is_row))
         if is_large:
             self.grid.setColumnStretch(0, 6)
             self.grid.setColumnStretch(1, 5 if count > 1 else 0)
