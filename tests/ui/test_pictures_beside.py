@@ -132,9 +132,11 @@ def test_in_a_small_room_the_pictures_cover_the_table_and_leave_it_with_the_room
     beside.resize(1440, 470)
     qtbot.waitUntil(lambda: beside.page.middle.covers, timeout=WAIT_MS)
     assert not beside.table_view.isVisible()
+    assert not beside.menus["view.values"].isChecked()  # what is not seen is not pressed
     beside.resize(1440, 900)
     qtbot.waitUntil(lambda: not beside.page.middle.covers, timeout=WAIT_MS)
     assert beside.table_view.isVisible()
+    assert beside.menus["view.values"].isChecked()
 
 
 def test_a_read_value_of_the_settings_is_what_was_kept_and_rubbish_is_ignored():

@@ -93,7 +93,7 @@ def view_menu() -> Menu[PartsWindow]:
                 "Alt+1",
                 icon="table",
                 short=tr("Values"),
-                is_on=lambda w: pages.is_shown(w, ""),
+                is_on=lambda w: pages.is_shown(w, "") and not w.page_in_front.middle.covers,
             ),
             Action(
                 "view.pictures",

@@ -89,6 +89,7 @@ class FilePage(QWidget):
         in_column(self.filters, self.table_view, on=sheet, margins=0, gap=0)
         self.middle = PictureSplit(sheet)
         self.middle.rearranged.connect(self._focus_front)
+        self.middle.rearranged.connect(lambda: self.changed.emit(self))
         self._stack = FrontStack()
         self._stack.addWidget(self.middle)
         in_column(self.bar, (self._stack, 1), on=self, margins=0, gap=0)
@@ -226,7 +227,6 @@ class FilePage(QWidget):
         """Show the pictures, or the table alone."""
         if self.pictures is not None and wanted != self.shows_pictures:
             self.middle.show_pictures(wanted)
-            self.changed.emit(self)
 
     # -- pages in the place of the values ------------------------------------------
 
