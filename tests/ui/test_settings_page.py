@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QTreeWidget
 
 from amp_studio.transfer.links import enter_password, parse_endpoint
 from amp_studio.ui.base.known_controls import KnownControl
@@ -73,3 +74,12 @@ def test_a_folder_is_opened_and_one_that_is_not_there_is_named(
 def test_every_part_of_it_has_each_letter_once(dialog: SettingsDialog, page: str) -> None:
     dialog.tabs.setCurrentIndex(PAGES.index(page))
     assert doubled(texts_of(dialog)) == {}
+
+
+@pytest.mark.parametrize("page", PAGES[1:])
+def test_the_rows_of_every_list_are_high_enough_to_be_clicked(dialog: SettingsDialog, page: str) -> None:
+    dialog.show()
+    dialog.show_page(page)
+    for rows in dialog.tabs.currentWidget().findChildren(QTreeWidget):
+        for n in range(min(3, rows.topLevelItemCount())):
+            assert rows.visualItemRect(rows.topLevelItem(n)).height() >= 22

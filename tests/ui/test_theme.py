@@ -10,9 +10,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QSize
-from PySide6.QtGui import QIcon, QPixmap
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QRect, QSize
+from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QListWidget,
+    QStyle,
+    QStyleOptionViewItem,
+    QTableWidget,
+    QTreeWidget,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Parameter
@@ -23,6 +31,7 @@ from amp_studio.ui.forms.mask_list import MaskList
 from amp_studio.ui.table.cell_editor import Refusal, RefusalFrame
 from tests.source_trees import nodes_of
 
+ACTIVE = QStyle.StateFlag.State_Active
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
     *[
@@ -240,3 +249,25 @@ def test_what_is_open_over_the_table_changes_its_colours_with_the_theme(
 def test_an_icon_without_room_is_not_painted(qtbot: QtBot, qtlog) -> None:
     assert theme.icon("x").pixmap(QSize(0, 8)).isNull()
     assert qtlog.records == []
+
+
+@pytest.mark.parametrize("kind", [QListWidget, QTreeWidget, QTableWidget])
+def test_a_selected_row_of_a_list_has_one_colour_and_no_gradient(
+    qtbot: QtBot, light_again: None, kind: type[QAbstractItemView]
+) -> None:
+    rows = kind()
+    rows.setStyleSheet(f"{kind.__name__}::item {{ padding-left: 8px; }}")
+    rows.model().insertRows(0, 1)
+    rows.model().insertColumns(0, 1)
+    qtbot.addWidget(rows)
+    rows.show()
+    rows.setCurrentIndex(rows.model().index(0, 0))
+    for is_active in (True, False):
+        image, option = QImage(60, 30, QImage.Format.Format_RGB32), QStyleOptionViewItem()
+        image.fill(0)
+        rows.initViewItemOption(option)
+        option.rect, option.state = QRect(0, 0, 60, 30), option.state | QStyle.StateFlag.State_Selected
+        option.state = option.state | ACTIVE if is_active else option.state & ~ACTIVE
+        rows.style().drawControl(QStyle.ControlElement.CE_ItemViewItem, option, QPainter(image), rows)
+        wanted = COLOURS["selbg" if is_active else "selidle"][0]
+        assert {image.pixelColor(30, y).name() for y in range(30)} == {wanted.lower()}

@@ -117,6 +117,11 @@ QHeaderView::section:vertical { padding: 0 4px; }
 QTableView, QTreeView, QListView, QTextBrowser { border: 0; gridline-color: $grid; }
 QDialog QTableView, QDialog QTreeView, QDialog QListView, QDialog QTextBrowser { border: 1px solid $line; }
 QDialog QTreeWidget::item, QDialog QListWidget::item { min-height: 22px; }
+QListWidget::item:selected, QTreeWidget::item:selected, QTableWidget::item:selected { background: $selbg;
+    color: $text; }
+QListWidget::item:selected:!active, QTreeWidget::item:selected:!active, QTableWidget::item:selected:!active {
+    background: $selidle; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QTableCornerButton::section { background: $panel; border: 0; }
 QGroupBox { border: 0; border-top: 1px solid $line; margin-top: 20px; padding-top: 6px; }
 QGroupBox::title { subcontrol-origin: margin; left: 0; color: $dim; }

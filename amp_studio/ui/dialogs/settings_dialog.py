@@ -140,6 +140,8 @@ class SettingsDialog(QDialog):
     def _turn(self, page: int) -> None:
         if PAGES[page] == "passwords":  # the keyring may be slow, or ask
             self._window.guarded(self._list_passwords, tr("Passwords"))
+        elif PAGES[page] == "folders":
+            self.folders.doItemsLayout()  # rows of a list that was not seen have not their height yet
 
     def _list_passwords(self) -> None:
         """List the known controls whose password is kept, and where."""
