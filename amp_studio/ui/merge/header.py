@@ -55,7 +55,8 @@ class _SourceButton(QToolButton):
         menu = self.menu()
         menu.clear()
         for title, offers in self._offers():
-            menu.addSection(title)
+            menu.addSeparator()
+            menu.addAction(title).setEnabled(False)  # the style sheet leaves the text of a section out
             self._add(menu, offers)
 
     def _add(self, menu: QMenu, offers: list[Offer] | tuple[Offer, ...]) -> None:

@@ -61,6 +61,14 @@ def test_versions_of_the_file_are_sources(
     assert displayed.merge.b.get(EXCESS) == Value(excess, "mm")
 
 
+def test_the_menu_of_sources_has_a_head_over_each_part(displayed: MergeWindow) -> None:
+    displayed.head.buttons[B].fill()
+    rows = displayed.head.buttons[B].menu().actions()
+    heads = [a.text() for a in rows if not a.isEnabled() and not a.isSeparator()]
+    assert heads == ["This File", "Other Files", "Control"]
+    assert not any(a.text() for a in rows if a.isSeparator())  # a style sheet shows no text there
+
+
 def test_an_earlier_save_is_a_source(window: MainWindow, displayed: MergeWindow, qtbot) -> None:
     window.edits.commit(EXCESS, "5 mm")
     assert window.save()
