@@ -123,6 +123,10 @@ class RuleChecks:
         """Return whether a value is there and counts."""
         return self._seen[address] is not None
 
+    def is_complete(self, check: RuleCheck) -> bool:
+        """Return whether all values that a check needs are there."""
+        return self._keys(check) is not None
+
     def findings(self, checks: Iterable[RuleCheck]) -> Iterator[tuple[RuleCheck, Finding]]:
         """Yield the checks of rules that are broken, and what is wrong."""
         for check in checks:

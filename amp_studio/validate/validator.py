@@ -204,11 +204,18 @@ class Validator:
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
+        return tuple({check.rule.id: check.rule for check in self._checks_about(address)}.values())
+
+    def rules_without_values(self, address: Address) -> set[str]:
+        """Return which of these rules cannot be checked, since a value that they need is not there."""
+        checks = list(self._checks_about(address))
+        return {c.rule.id for c in checks} - {c.rule.id for c in checks if self._checks.rules.is_complete(c)}
+
+    def _checks_about(self, address: Address) -> Iterator[RuleCheck]:
         # What an edit wakes takes all addresses at once, and the window asks before the first edit.
         is_prepared = "rule_readers" in vars(self._plan)
         among = self._plan.rule_readers.get(address, ()) if is_prepared else self._plan.checks
-        checks = (check for check in among if check.is_about(address))
-        return tuple({check.rule.id: check.rule for check in checks}.values())
+        return (check for check in among if check.is_about(address))
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
         """Return the rule and the instance that a present finding is of; None for a range,

@@ -1,15 +1,19 @@
 """Help, facts, rules and history of the selected parameter."""
 
+import itertools
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
-from PySide6.QtCore import QUrl
+from PySide6.QtCore import QPointF, QRectF, QUrl
+from PySide6.QtGui import QPainter
 
 from amp_studio.files import Document
 from amp_studio.files.document import HistoryEntry
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.table.range_bar import RangeBar, ValueInRange
 
 from .conftest import WAIT_MS
 
@@ -92,6 +96,43 @@ def test_rules_that_are_not_met_come_first_and_are_counted(window: MainWindow) -
     text = page(window)
     assert "3 of 13 not met" in text  # one of them is that the like axes have another value
     assert text.index("Error: At rapid 10 000 mm/min") < text.index("Reserve of excess error")
+
+
+def test_a_rule_that_needs_a_value_that_is_not_set_is_not_called_met(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    assert "all 12 met" in page(window)
+    window.workspace.edit("", {EXCESS: None})
+    assert "3 met, 9 not checked without a value" in page(window)
+
+
+class _Texts(QPainter):
+    """A painter that keeps the texts, with where each is."""
+
+    kept: ClassVar[dict[str, QRectF]] = {}
+
+    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]
+        metrics = self.fontMetrics()
+        width = metrics.horizontalAdvance(text)
+        self.kept[text] = QRectF(at.x(), at.y() - metrics.ascent(), width, metrics.ascent())
+
+
+@pytest.mark.parametrize("width", [216, 400])
+def test_no_two_texts_of_the_range_overlap_and_no_figure_is_cut(
+    width: int, monkeypatch: pytest.MonkeyPatch, qtbot
+) -> None:
+    bar, most = RangeBar(), 4_194_304.0
+    qtbot.addWidget(bar)
+    bar.resize(width, bar.sizeHint().height())
+    monkeypatch.setattr("amp_studio.ui.table.range_bar.QPainter", _Texts)
+    for value, default in itertools.product((4.0, 2_500.0, 2e6, most), (4.0, 2_000.0, 2.1e6, most)):
+        bar.show_range(ValueInRange(4.0, most, "counts", value, default))
+        bar.show_allowed((4.0, 3_355_443.0))
+        _Texts.kept = {}
+        bar.grab()
+        for one, other in itertools.combinations(_Texts.kept.values(), 2):
+            assert not one.intersects(other), (value, default, _Texts.kept)
+        assert any("3 355 4" in text.replace("\u202f", " ") for text in _Texts.kept)
+        assert not any("…" in text for text in _Texts.kept)
 
 
 def test_a_calculated_value_is_taken_by_a_link_and_nothing_else(window: MainWindow) -> None:

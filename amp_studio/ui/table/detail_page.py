@@ -189,31 +189,39 @@ class DetailPage(Translated):
         return f"<p>{mark} {html.escape(finding_text(self._workspace.file, finding))}{cited}</p>"
 
     def _rules(self, address: Address) -> tuple[str, str]:
-        """Return the title and the rules: those that are not met with what is wrong, then those that are."""
+        """Return the title and the rules: those that are not met with what is wrong, then those that are,
+        and those that nothing is known of.
+        """
         workspace, lines = self._workspace, list[str]()
         dim = colour("dim").name()
         broken = self.findings(address)
         lines += map(self._finding_line, broken)
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
-        met = [rule for rule in rules if rule.id not in unmet]
-        shown_rules = met if "rules" in self.opened or len(met) <= _RULES else met[:_RULES]
+        is_set = workspace.file.get(address) is not None
+        unknown = set() if is_set else workspace.validator.rules_without_values(address) - unmet
+        others = sorted((r for r in rules if r.id not in unmet), key=lambda rule: rule.id in unknown)
+        shown_rules = others if "rules" in self.opened or len(others) <= _RULES else others[:_RULES]
         for rule in shown_rules:
             page = (
                 f'<span style="color:{dim}">{html.escape(worded(rule.cited, family_of_rule(rule.id)))}</span>'
             )
             title = html.escape(worded(rule.title, family_of_rule(rule.id)))
-            lines.append(f"<p>{icon_html('check', 'text')} {title} {page}</p>")
-        if len(shown_rules) < len(met):
-            more = self.tr("{number} more are met").format(number=len(met) - len(shown_rules))
+            mark = icon_html("circle-dashed", "dim") if rule.id in unknown else icon_html("check", "text")
+            lines.append(f"<p>{mark} {title} {page}</p>")
+        if len(shown_rules) < len(others):
+            more = self.tr("{number} more").format(number=len(others) - len(shown_rules))
             lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
         title = self.tr("Rules")
         if rules or broken:
             # A finding may be of a rule that reads other values: it counts too.
             number = len({r.id for r in rules} | unmet)
             text = self.tr("{unmet} of {number} not met") if unmet else self.tr("all {number} met")
-            count = text.format(unmet=len(unmet), number=number)
-            title += f" &nbsp; {count}"
+            if unknown:
+                text = text if unmet else self.tr("{met} met")
+                text += f", {self.tr('{unknown} not checked without a value')}"
+            met = number - len(unmet | unknown)
+            title += f" &nbsp; {text.format(unmet=len(unmet), number=number, met=met, unknown=len(unknown))}"
         return title, "".join(lines) or f"<p>{self.tr('No rule uses this parameter.')}</p>"
 
     def _help(self, address: Address) -> str:

@@ -43,6 +43,8 @@ class RangeBar(QWidget):
         self._allowed: tuple[float, float] | None = None
         self.words = ""
         """What the rules allow, in words; empty where it is the whole range or not known."""
+        self._short = ""
+        """The same in a small room."""
 
     def sizeHint(self) -> QSize:
         """Return the height of the bar with a line of text above and below."""
@@ -50,7 +52,7 @@ class RangeBar(QWidget):
 
     def show_range(self, found: ValueInRange | None) -> None:
         """Show a value in its range; None hides the bar. What the rules allow is not known yet."""
-        self._range, self._allowed, self.words = found, None, ""
+        self._range, self._allowed, self.words, self._short = found, None, "", ""
         self.setVisible(found is not None)
         self._describe()
 
@@ -59,18 +61,19 @@ class RangeBar(QWidget):
         found = self._range
         if found is None:
             return
-        self._allowed, self.words = allowed, ""
+        self._allowed, self.words, self._short = allowed, "", ""
         if allowed is not None:
             # Less than a pixel of the bar: no limit that a person should be shown.
             least = (found.high - found.low) * 2e-3
             low, high = allowed[0] - found.low > least, found.high - allowed[1] > least
             texts = [written(write_number(_inwards(allowed[n], 1 - 2 * n))) for n in (0, 1)]
             if low and high:
-                self.words = self.tr("rules allow {low} to {high}").format(low=texts[0], high=texts[1])
+                both = self.tr("rules allow {low} to {high}"), "{low}–{high}"
             elif low:
-                self.words = self.tr("rules allow from {low}").format(low=texts[0])
-            elif high:
-                self.words = self.tr("rules allow up to {high}").format(high=texts[1])
+                both = self.tr("rules allow from {low}"), "≥ {low}"
+            else:
+                both = (self.tr("rules allow up to {high}"), "≤ {high}") if high else ("", "")
+            self.words, self._short = (text.format(low=texts[0], high=texts[1]) for text in both)
         self._describe()
 
     def _describe(self) -> None:
@@ -112,25 +115,35 @@ class RangeBar(QWidget):
         painter.drawText(QPointF(right_at, below + metrics.ascent()), ends[1])
         if self.words:
             start = _SIDE + metrics.horizontalAdvance(ends[0]) + 2 * GAP
-            words = metrics.elidedText(self.words, Qt.TextElideMode.ElideRight, int(right_at - start - GAP))
-            painter.drawText(QPointF(start, below + metrics.ascent()), words)
-        self._paint_default(painter, whole, metrics)
-        self._paint_value(painter, whole, metrics)
+            fitting = (
+                text
+                for text in (self.words, self._short)
+                if metrics.horizontalAdvance(text) <= right_at - start - 2 * GAP
+            )
+            painter.drawText(QPointF(start, below + metrics.ascent()), next(fitting, ""))  # no digit is cut
+        self._paint_default(painter, whole, metrics, self._paint_value(painter, whole, metrics))
         painter.end()
 
-    def _paint_default(self, painter: QPainter, whole: QRectF, metrics: QFontMetrics) -> None:
+    def _paint_default(
+        self, painter: QPainter, whole: QRectF, metrics: QFontMetrics, value: QRectF
+    ) -> None:
+        """Paint the default; its text where it has room beside that of the ``value``."""
         found = self._range
         if found is None or found.default is None:
             return
         x = self._at(found.default, whole)
         painter.fillRect(QRectF(x - 1, _TOP - 4, 2, _BAR + 8), colour("text"))
         text = self.tr("default {value}").format(value=written(write_number(found.default)))
-        self._above(painter, x, text, metrics, "dim", right=True)
+        place = self._above(x, text, metrics, right=True)
+        if not place.intersects(value):
+            painter.setPen(colour("dim"))
+            painter.drawText(place.bottomLeft(), text)
 
-    def _paint_value(self, painter: QPainter, whole: QRectF, metrics: QFontMetrics) -> None:
+    def _paint_value(self, painter: QPainter, whole: QRectF, metrics: QFontMetrics) -> QRectF:
+        """Paint the value, and return where its text is, with what has to be clear beside it."""
         found = self._range
         if found is None or found.value is None:
-            return
+            return QRectF()
         tokens: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
         colour_name = tokens.get(found.severity, "sel")
         x = self._at(found.value, whole)
@@ -139,25 +152,23 @@ class RangeBar(QWidget):
         painter.drawPolygon(QPolygonF([QPointF(x - 5, _TOP - 7), QPointF(x + 5, _TOP - 7), QPointF(x, _TOP)]))
         painter.drawRect(QRectF(x - 0.5, _TOP, 1, _BAR))
         # Both at one place would be written over each other.
-        if found.value != found.default:
-            self._above(painter, x + 9, written(write_number(found.value)), metrics, colour_name, right=False)
+        if found.value == found.default:
+            return QRectF()
+        text = written(write_number(found.value))
+        place = self._above(x + 9, text, metrics, right=False)
+        painter.setPen(colour(colour_name))
+        painter.drawText(place.bottomLeft(), text)
+        return place.adjusted(-2 * GAP, 0, 2 * GAP, 0)
 
-    def _above(
-        self,
-        painter: QPainter,
-        x: float,
-        text: str,
-        metrics: QFontMetrics,
-        colour_name: Token,
-        *,
-        right: bool,
-    ) -> None:
-        """Write above the bar, at the side of ``x`` where there is room."""
+    def _above(self, x: float, text: str, metrics: QFontMetrics, *, right: bool) -> QRectF:
+        """Return where a text above the bar is, at the side of ``x`` where there is room;
+        its letters stand on the lower edge.
+        """
         width = metrics.horizontalAdvance(text)
         left = x - width if right else x
         left = min(max(left, float(_SIDE)), self.width() - _SIDE - width)
-        painter.setPen(colour(colour_name))
-        painter.drawText(QPointF(left, _TOP - 8), text)
+        height = metrics.ascent()
+        return QRectF(left, _TOP - 8 - height, width, height)
 
     def _at(self, number: float, whole: QRectF) -> float:
         """Return where a number is; one outside of the range is at its end."""
