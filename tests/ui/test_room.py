@@ -89,6 +89,8 @@ def test_a_unit_that_all_values_of_a_row_have_is_in_its_head_and_else_in_every_c
     assert table.unit_of_row(row) == "", "X is in mm and B in degrees"
     assert {table.look(row, n).unit for n in range(5)} == {"mm", "°"}
     assert table.cell_text(("servo.position_counts", "1")).endswith("counts"), "and who hears it hears both"
+    window.workspace.edit("", {("servo.excess_error", axis): None for axis in "123"})
+    assert table.unit_of_row(row) == "", "a number typed for X, where nothing is set now, is in mm"
 
 
 def test_columns_with_nothing_to_say_are_not_shown(opened) -> None:

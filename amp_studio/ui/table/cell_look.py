@@ -45,7 +45,9 @@ class CellLook:
     kind: CellKind
     text: str = ""
     unit: str = ""
-    """What is painted in the slot of units: the unit of a number, the number of a mask."""
+    """What is painted in the slot of units: the unit of a number, the number of a mask. Of what is not set,
+    the unit that it would have.
+    """
     short: str = ""
     """A shorter text that no other choice of the parameter has, for where the whole one has no room."""
     is_unit_in_head: bool = False
@@ -185,9 +187,10 @@ def as_written(default: Value) -> Value:
 
 def move_unit_to_head(looks: Iterable[CellLook]) -> None:
     """Leave the unit of the cells of a row to its head where all values have the same."""
-    numbers = [look for look in looks if look.is_number]
-    units = {look.unit for look in numbers}
-    if len(units) == 1 and "" not in units:
+    there = [look for look in looks if look.kind != "absent"]
+    numbers = [look for look in there if look.is_number]
+    units = {look.unit for look in there}  # of what is not set, that of a number typed there
+    if numbers and len(units) == 1 and "" not in units:
         for look in numbers:
             look.is_unit_in_head = True
 
@@ -325,6 +328,7 @@ class ShownValues(Translated):
         look.is_unlike = is_unlike
         look.has_note = bool(value_note(file, address))
         if value is None:
+            look.unit = unit_in_words(self.workspace.typed_unit(address))
             return look
         look.is_own = not file.is_default(address)
         look.is_off_default = look.is_own and not look.is_locked and file.default(address) is not None
