@@ -162,7 +162,7 @@ class RangeBar(QWidget):
 
     def _above(self, x: float, text: str, metrics: QFontMetrics, *, right: bool) -> QRectF:
         """Return where a text above the bar is, at the side of ``x`` where there is room;
-        its letters stand on the lower edge.
+        the lower edge is the base of its letters.
         """
         width = metrics.horizontalAdvance(text)
         left = x - width if right else x
