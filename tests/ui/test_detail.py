@@ -110,7 +110,7 @@ class _Texts(QPainter):
 
     kept: ClassVar[dict[str, QRectF]] = {}
 
-    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # of its ways this one is used
+    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # one of its ways
         metrics = self.fontMetrics()
         width = metrics.horizontalAdvance(text)
         self.kept[text] = QRectF(at.x(), at.y() - metrics.ascent(), width, metrics.ascent())

@@ -278,7 +278,7 @@ def test_all_pictures_are_side_by_side_where_there_is_room_and_one_alone_where_n
     for height, names in ((820, ["travel", "ramps", "gears", "jog"]), (613, ["travel", "ramps", "gears"])):
         page.resize(1000, height)
         qtbot.waitUntil(lambda names=names: seen() == names, timeout=WAIT_MS)
-        qtbot.waitUntil(lambda: page.footer.y() - _end(page) <= 2 * GAP2, timeout=WAIT_MS)  # no room is wasted
+        qtbot.waitUntil(lambda: page.footer.y() - _end(page) <= 2 * GAP2, timeout=WAIT_MS)  # all is used
         qtbot.waitUntil(lambda names=names: _lowest(page, names) >= MIN_CARD[1], timeout=WAIT_MS)
     page.resize(1000, 430)
     qtbot.waitUntil(lambda: seen() == ["travel", "ramps"], timeout=WAIT_MS)

@@ -124,9 +124,7 @@ class RangeBar(QWidget):
         self._paint_default(painter, whole, metrics, self._paint_value(painter, whole, metrics))
         painter.end()
 
-    def _paint_default(
-        self, painter: QPainter, whole: QRectF, metrics: QFontMetrics, value: QRectF
-    ) -> None:
+    def _paint_default(self, painter: QPainter, whole: QRectF, metrics: QFontMetrics, value: QRectF) -> None:
         """Paint the default; its text where it has room beside that of the ``value``."""
         found = self._range
         if found is None or found.default is None:
