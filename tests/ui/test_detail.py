@@ -110,7 +110,7 @@ class _Texts(QPainter):
 
     kept: ClassVar[dict[str, QRectF]] = {}
 
-    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # one of its ways
+    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # noqa: N802  # Qt's
         metrics = self.fontMetrics()
         width = metrics.horizontalAdvance(text)
         self.kept[text] = QRectF(at.x(), at.y() - metrics.ascent(), width, metrics.ascent())
