@@ -34,7 +34,7 @@ if TYPE_CHECKING:
         DescribedSchema,
         group_key,
     )
-    from .evaluation import Evaluation, same_value
+    from .evaluation import Evaluation, same_key, same_value
     from .expression import (
         ALWAYS_THERE,
         EVALUATION_ERRORS,

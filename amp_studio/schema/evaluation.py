@@ -12,7 +12,7 @@ from .address import Address, UnknownParameterError
 from .addressing import resolve_address
 from .catalog import Schema
 from .conditions import Answers, Asked, Conditions, Question, Reference, StateGroups, StateInfo, conditions_of
-from .expression import Canonical, Circumstances, ValueKey, ValueKeys, canonical_value, value_of
+from .expression import Canonical, Circumstances, ValueKey, ValueKeys, key_of, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
@@ -303,6 +303,11 @@ class Evaluation:
 
 def same_value(a: Value | None, b: Value | None) -> bool:
     """Return whether two values are the same, whatever their units (1 in is 25.4 mm, 1 mm is not 1 deg)."""
-    if a is None or b is None or isinstance(a.value, (str, bool)) or isinstance(b.value, (str, bool)):
-        return a == b
-    return dimension(a.unit) == dimension(b.unit) and canonical_value(a) == canonical_value(b)
+    return same_key(a) == same_key(b)
+
+
+def same_key(value: Value | None) -> tuple[str, ValueKey] | None:
+    """Return what two values have in common if and only if they are the same: thousands are sorted by it."""
+    if value is None:
+        return None
+    return value.unit if isinstance(value.value, (str, bool)) else dimension(value.unit), key_of(value)

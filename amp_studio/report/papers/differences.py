@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -23,7 +24,7 @@ from amp_studio.report.chapters import Danger
 from amp_studio.report.dangers import dangers_of_change
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, Value, same_value, show_value
+from amp_studio.schema import Address, Value, ValueKey, same_key, same_value, show_value
 
 from .paper import Paper, PaperTable
 
@@ -241,25 +242,19 @@ def machine_lines(
             address,
             _named(first, address, language),
             tuple(_value_text(first, address, value) for value in values),
-            frozenset(_departing(values)),
-            alike_of(values),
+            frozenset(_departing(alike)),
+            alike,
             _is_label(first, address),
         )
         for address, values in rows
+        for alike in [alike_of(values)]
     ], same
 
 
 def alike_of(values: Sequence[Value | None]) -> tuple[int, ...]:
     """Return for each value the place of the first that is the same."""
-    # Compared one by one: values in different units can be the same, and have no common key.
-    firsts: list[int] = []
-    found: list[int] = []
-    for place, value in enumerate(values):
-        first = next((n for n in firsts if same_value(values[n], value)), place)
-        if first == place:
-            firsts.append(place)
-        found.append(first)
-    return tuple(found)
+    firsts: dict[tuple[str, ValueKey] | None, int] = {}
+    return tuple(firsts.setdefault(same_key(value), place) for place, value in enumerate(values))
 
 
 def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
@@ -332,15 +327,14 @@ def _in_one_unit(address: Address, values: tuple[Value | None, ...]) -> tuple[Va
     )
 
 
-def _departing(values: Sequence[Value | None]) -> Iterator[int]:
-    """Yield the places of the values that are not what most have;
+def _departing(alike: Sequence[int]) -> Iterator[int]:
+    """Yield the places of the values that are not what most have (``alike_of``);
     none where no value is more frequent than another.
     """
-    counts = [sum(same_value(value, other) for other in values) for value in values]
-    most = max(counts)
+    ((first, most),) = Counter(alike).most_common(1)
     # A majority: of two machines, or of two pairs, neither is the one that departs.
-    if most * 2 > len(values):
-        yield from (n for n, count in enumerate(counts) if count < most)
+    if most * 2 > len(alike):
+        yield from (place for place, other in enumerate(alike) if other != first)
 
 
 def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, str, str]:
