@@ -179,6 +179,19 @@ def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path
     assert (other.code, "Not a text of num, but of grblhal (format grbl)" in other.err) == (2, True)
 
 
+def test_copies_of_what_controls_contained_are_no_machines_of_a_folder(amp, mill: Path) -> None:
+    """They were checked as machines, which the window and a project leave out."""
+    copy = mill.with_name(f"{mill.stem}.before-20261130-140500.amp")
+    copy.write_bytes(mill.read_bytes())
+    checked = amp("validate", mill.parent, "--json")
+    assert json.loads(checked.out)["files"] == [json.loads(amp("validate", mill, "--json").out)]
+    remark = f"name a copy of what a control contained by itself: {copy}\n"
+    assert checked.err.endswith(f"left out: 1; {remark}")
+    assert str(copy) in amp("validate", copy).out
+    mill.unlink()
+    assert amp("validate", copy.parent).err.endswith(f": contains no .amp files of machines; {remark}")
+
+
 def test_validate_writes_nothing(amp, mill: Path, folder) -> None:
     before = folder()
     amp("validate", mill)

@@ -85,6 +85,8 @@ AT_A_TIME = 16
 _LOOKED_INTO = 20
 """Files of a folder without parameter files of which one may be a control's own text."""
 
+_NAME_ONE = "name a copy of what a control contained by itself: "
+
 WITH_REASONS = ("text", "json")
 """Formats with a place for what ``--why`` explains."""
 
@@ -186,10 +188,11 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
     and which folders cannot be read.
     """
     from amp_studio.cli.checks.formats import CheckResult
-    from amp_studio.files import ENDING
+    from amp_studio.files import ENDING, is_of_machine
 
     found: list[Path] = []
     unread: list[CheckResult] = []
+    copies: list[Path] = []
 
     def skip(error: OSError) -> None:
         folder = Path(error.filename)
@@ -201,11 +204,19 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
             continue
         before = len(unread)
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
-        inside = [Path(folder, name) for folder, name in names if name.endswith(ENDING)]
-        inside.sort(key=lambda file: file.parts)
-        if not inside and before == len(unread):
-            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files{_texts_in(path)}"))
+        files = sorted(
+            (Path(folder, name) for folder, name in names if name.endswith(ENDING)), key=lambda f: f.parts
+        )
+        inside = [file for file in files if is_of_machine(file.name)]
+        kept = [file for file in files if not is_of_machine(file.name)]
+        if inside:
+            copies += kept
+        elif before == len(unread):
+            instead = f" of machines; {_NAME_ONE}{kept[0]}" if kept else _texts_in(path)
+            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files{instead}"))
         found += inside
+    if copies:
+        print_remark(f"left out: {len(copies)}; {_NAME_ONE}{copies[0]}")
     return found, unread
 
 
