@@ -1,5 +1,6 @@
 """Machines side by side in the window."""
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from PySide6.QtWidgets import QFileDialog
 from amp_studio.files import Project, ProjectInfo, new_file, open_file
 from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
+from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge import machines_dialog
 from amp_studio.ui.merge.machines_dialog import MachinesDialog
 
 from .alt_letters import doubled, texts_of
@@ -145,3 +148,29 @@ def test_without_a_file_there_is_nothing_to_compare_yet(open_window: Callable[..
     window = open_window()
     action(window, "Compare Machines").trigger()
     assert window.findChild(MachinesDialog).empty.text() == "Choose two machines or more."
+
+
+def test_reading_the_machines_can_be_cancelled(
+    open_window: Callable[..., MainWindow], hall: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The files of a project of a thousand were all read, whatever one pressed."""
+    read = machines_dialog._read
+
+    def cancel_after_two(
+        machines: list[machines_dialog._Machine], progress: TaskProgress, cancelled: threading.Event
+    ) -> list[machines_dialog._Machine]:
+        def count(name: str, done: int, total: int) -> None:
+            progress(name, done, total)
+            if done == 1:
+                cancelled.set()
+
+        return read(machines, count, cancelled)
+
+    monkeypatch.setattr(machines_dialog, "_read", cancel_after_two)
+    window = open_window(hall / "ROUTER_2.amp")
+    action(window, "Compare Machines").trigger()
+    dialog = window.findChild(MachinesDialog)
+    assert [dialog.list.item(n).text() for n in range(dialog.list.count())] == ["ROUTER_2", "ROUTER_1"]
+    assert dialog.bar.text.text() == "Cancelled: 2 files not read."
+    assert dialog.bar.isVisible()
+    assert dialog.empty.text() == "Nothing differs."

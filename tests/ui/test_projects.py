@@ -1,14 +1,17 @@
 """The files of a project: open, copy (also from another project), rename, delete, recover."""
 
+import threading
 from pathlib import Path
 
 import pytest
 
 from amp_studio.files import Document, Project, ProjectInfo
 from amp_studio.schema import Value
+from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.dialogs import file_dialogs
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.project import check as project_check
 from amp_studio.ui.project.check import ProjectCheckDialog
 
 from .conftest import User, action, on_disk
@@ -195,6 +198,13 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     assert branches["third.amp"].text(4).startswith(str(project.path("third")))
     assert "1 cannot be read" in dialog.text.text()
     assert int(branches["second.amp"].text(1)) > int(branches["mill.amp"].text(1))
+    assert branches["second.amp"].childCount() == 0, (
+        "a hundred thousand lines are not made before they are seen"
+    )
+    dialog.tree.expandItem(branches["second.amp"])
+    assert branches["second.amp"].childCount() == sum(
+        int(branches["second.amp"].text(column)) for column in (1, 2, 3)
+    )
     (leaf,) = (
         leaf
         for leaf in map(branches["second.amp"].child, range(branches["second.amp"].childCount()))
@@ -202,3 +212,23 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     )
     dialog.tree.itemActivated.emit(leaf, 0)
     assert (window.workspace.path, window.selected()) == (project.path("second"), EXCESS)
+
+
+def test_a_check_of_all_files_that_was_cancelled_says_what_it_left_out(
+    window: MainWindow, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It listed the first files as if they were all."""
+    check = project_check.check_files
+
+    def cancel_after_one(paths: list[Path], progress: TaskProgress, cancelled: threading.Event) -> object:
+        def count(name: str, done: int, total: int) -> None:
+            progress(name, done, total)
+            cancelled.set()
+
+        return check(paths, count, cancelled)
+
+    monkeypatch.setattr(project_check, "check_files", cancel_after_one)
+    action(window, "Check All Files").trigger()
+    dialog = window.findChild(ProjectCheckDialog)
+    assert dialog.tree.topLevelItemCount() == 1
+    assert dialog.text.text().startswith("Cancelled: 1 file not checked. 1 file as saved on disk: ")

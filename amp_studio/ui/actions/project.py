@@ -139,7 +139,7 @@ def check(window: StudioWindow) -> None:
     found = run_with_progress(
         tr("Check All Files"), lambda progress, cancelled: check_files(paths, progress, cancelled), window
     )
-    window.beside.show(ProjectCheckDialog(found, partial(show_at, window), window))
+    window.beside.show(ProjectCheckDialog(found, partial(show_at, window), window, len(paths)))
 
 
 def compare(window: StudioWindow) -> None:

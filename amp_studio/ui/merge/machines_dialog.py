@@ -4,6 +4,7 @@ and the table as a paper.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -32,8 +33,9 @@ from amp_studio.schema import Address
 from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.screen_room import fit_to_screen
-from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.task import TaskProgress, in_background, run_with_progress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW
+from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -90,6 +92,7 @@ class MachinesDialog(QDialog):
         ]
         self._compared: list[_Machine] = []
         self._files: list[ParameterFile] = []
+        self._left_out: list[str] = []
         self._is_stale = False
         for each in opened:
             each.changed.connect(self._mark_stale)
@@ -158,7 +161,7 @@ class MachinesDialog(QDialog):
 
     def begin(self) -> None:
         """Read the files, and compare those of the family of the first."""
-        in_background(self, self.tr("Reading the files"), partial(_read, self._machines))
+        self._machines = self._read(self._machines)
         first = next((m.file for m in self._machines if m.file is not None), None)
         family = first.schema.family.family if first is not None else ""
         for machine in self._machines:
@@ -166,6 +169,15 @@ class MachinesDialog(QDialog):
                 machine, chosen=machine.file is not None and machine.file.schema.family.family == family
             )
         self.compare()
+
+    def _read(self, machines: list[_Machine]) -> list[_Machine]:
+        """Return machines whose files are read: all of them, or the first ones where it was cancelled."""
+        read: list[_Machine] = run_with_progress(
+            self.tr("Reading the files"), lambda *about: _read(machines, *about), self
+        )
+        if left := len(machines) - len(read):
+            self._left_out.append(self.tr("Cancelled: {count} not read.").format(count=counted(left, "file")))
+        return read
 
     def _list(self, machine: _Machine, *, chosen: bool) -> None:
         item = QListWidgetItem(machine.path.stem)
@@ -193,8 +205,7 @@ class MachinesDialog(QDialog):
             for text in texts
             if not any(same_file(Path(text), m.path) for m in self._machines)
         ]
-        in_background(self, self.tr("Reading the files"), partial(_read, added))
-        for machine in added:
+        for machine in self._read(added):
             self._machines.append(machine)
             self._list(machine, chosen=machine.file is not None)
         if faults := [machine.fault for machine in added if machine.fault]:
@@ -233,8 +244,8 @@ class MachinesDialog(QDialog):
             self.bar.say(str(error), "error")
             return
         self._compared = chosen
-        if notes:
-            self.bar.say("\n".join(notes))
+        if notes or self._left_out:
+            self.bar.say("\n".join((*self._left_out, *notes)), "warning" if self._left_out else "information")
         else:
             self.bar.hide()
         self.model.show_lines(lines, self._names(), [machine.path for machine in chosen])
@@ -306,9 +317,15 @@ class MachinesDialog(QDialog):
         self.bar.say(self.tr("{path} written").format(path=path))
 
 
-def _read(machines: Sequence[_Machine]) -> None:
-    for machine in machines:
+def _read(machines: Sequence[_Machine], progress: TaskProgress, cancelled: threading.Event) -> list[_Machine]:
+    read = []
+    for n, machine in enumerate(machines):
+        if cancelled.is_set():
+            break
+        progress(machine.path.name, n, len(machines))
         machine.read()
+        read.append(machine)
+    return read
 
 
 def _compared(
@@ -317,7 +334,8 @@ def _compared(
     """Return the rows, how many values are the same, the files as they were compared, and notes;
     raises ValueError.
     """
-    _read(chosen)
+    for machine in chosen:
+        machine.read()
     files = [machine.file for machine in chosen if machine.file is not None]
     notes: list[str] = []
     if by_letter:

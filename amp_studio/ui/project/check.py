@@ -12,7 +12,7 @@ from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QWidget
 
 from amp_studio.files import ParameterFileError, open_file
-from amp_studio.guide import found_in
+from amp_studio.guide import present
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.layout import in_column
@@ -20,7 +20,7 @@ from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
 from amp_studio.ui.base.translated import counted, worded
-from amp_studio.validate import SEVERITIES, Finding, validator_of
+from amp_studio.validate import SEVERITIES, Finding, KeptValidators, rules_beside
 
 _GOES_TO = Qt.ItemDataRole.UserRole
 
@@ -46,21 +46,23 @@ def check_files(paths: list[Path], progress: TaskProgress, cancelled: threading.
     after a cancel only those of the files checked so far.
     """
     checked = []
+    kept = KeptValidators()
     for n, path in enumerate(paths):
         # Between files: the check of one is not interrupted.
         if cancelled.is_set():
             break
         progress(path.name, n, len(paths))
-        checked.append(_checked(path))
+        checked.append(_checked(path, kept))
     return checked
 
 
-def _checked(path: Path) -> CheckedFile:
+def _checked(path: Path, kept: KeptValidators) -> CheckedFile:
     try:
         file = open_file(path).file
     except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
-    findings = found_in(validator_of(file, path))
+    with kept.validator_of(file, path, rules_beside(path, file)) as validator:
+        findings = present(validator, validator.findings()).findings
     labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
     return CheckedFile(path, findings, labels)
 
@@ -71,9 +73,15 @@ class ProjectCheckDialog(QDialog):
     """
 
     def __init__(
-        self, checked: list[CheckedFile], show: Callable[[Path, Address | None], None], parent: QWidget | None
+        self,
+        checked: list[CheckedFile],
+        show: Callable[[Path, Address | None], None],
+        parent: QWidget | None,
+        total: int | None = None,
     ) -> None:
+        """``total`` is how many files were to be checked, where that was more: it was cancelled."""
         super().__init__(parent)
+        self._checked = checked
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Check All Files"))
         fit_to_screen(self, 900, 500)
@@ -85,6 +93,9 @@ class ProjectCheckDialog(QDialog):
             )
             + (self.tr("; {unread} cannot be read").format(unread=unread) if unread else "")
         )
+        if total is not None and (left := total - len(checked)):
+            cancelled = self.tr("Cancelled: {count} not checked.").format(count=counted(left, "file"))
+            self.text.setText(f"{cancelled} {self.text.text()}")
         self.tree = QTreeWidget()
         self.tree.setHeaderLabels(
             [
@@ -100,8 +111,15 @@ class ProjectCheckDialog(QDialog):
         self.tree.addTopLevelItems([_branch(c) for c in checked])
         for column in range(4):
             self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        self.tree.itemExpanded.connect(self._fill)
         self.tree.itemActivated.connect(lambda item: show(*item.data(0, _GOES_TO)))
         in_column(self.text, self.tree, on=self)
+
+    def _fill(self, item: QTreeWidgetItem) -> None:
+        """Give a file its findings when it is opened: a project can have a hundred thousand."""
+        if item.childCount() == 0:
+            of = self._checked[self.tree.indexOfTopLevelItem(item)]
+            item.addChildren([_leaf(of.path, *each) for each in zip(of.findings, of.labels, strict=True)])
 
 
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
@@ -113,9 +131,8 @@ def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     if worst:
         item.setIcon(0, severity_icon(worst))
     item.setData(0, _GOES_TO, (checked.path, None))
-    item.addChildren(
-        [_leaf(checked.path, *each) for each in zip(checked.findings, checked.labels, strict=True)]
-    )
+    if checked.findings:
+        item.setChildIndicatorPolicy(QTreeWidgetItem.ChildIndicatorPolicy.ShowIndicator)
     return item
 
 

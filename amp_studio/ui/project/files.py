@@ -106,7 +106,7 @@ class ProjectFiles(QObject):
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,
         )
-        self.window.beside.show(ProjectCheckDialog(found, self._show_at, self.window))
+        self.window.beside.show(ProjectCheckDialog(found, self._show_at, self.window, len(paths)))
 
     # -- in and out ---------------------------------------------------------------------
 
