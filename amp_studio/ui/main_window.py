@@ -11,7 +11,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QMainWindow, QWidget
 
 from amp_studio.files import ENDING, axis_instances
-from amp_studio.schema import Address
+from amp_studio.schema import Address, isolated
 from amp_studio.validate import Finding
 
 from .actions import filters, guide, project, view
@@ -225,9 +225,9 @@ class MainWindow(PartsWindow):
             self.setWindowModified(False)
             return
         name = project.name_of(self, workspace.path)
-        place = f"{name} — " if name else ""
+        place = f"{isolated(name)} — " if name else ""
         only_seen = "" if workspace.may_edit else f" [{self.tr('read-only')}]"
-        self.setWindowTitle(f"{workspace.path.name}[*]{only_seen} — {place}AMP Studio")
+        self.setWindowTitle(f"{isolated(workspace.path.name)}[*]{only_seen} — {place}AMP Studio")
         self.setWindowModified(workspace.is_dirty)
 
     def _what_there_is(self, workspace: Workspace | None) -> dict[Needs, bool]:

@@ -214,7 +214,7 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     assert (window.workspace.path, window.selected()) == (project.path("second"), EXCESS)
 
 
-def test_a_check_of_all_files_that_was_cancelled_says_what_it_left_out(
+def test_a_cancelled_check_of_all_files_names_how_many_are_left(
     window: MainWindow, project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It listed the first files as if they were all."""

@@ -10,6 +10,7 @@ from amp_studio.report.model import MARKS, Report
 from amp_studio.report.parameter.manual_page import GRADES
 from amp_studio.report.templating.templates import filled
 from amp_studio.report.wording import printable
+from amp_studio.schema import isolated
 
 
 def render_html(report: Report, own: Path | None = None) -> bytes:
@@ -42,4 +43,4 @@ def _drawing(svg: str) -> str:
 def _cleaned(value: object) -> object:
     """Return a text of the file without control characters; text of the template is not changed."""
     # Exactly str: Markup is a text of the template, already escaped.
-    return printable(value) if type(value) is str else value
+    return isolated(printable(value)) if type(value) is str else value

@@ -21,7 +21,7 @@ from amp_studio.report.language import ENGLISH, Language, language_of
 from amp_studio.report.model import MARKS, Report
 from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
 from amp_studio.report.wording import printable
-from amp_studio.schema import UNITS, Address, unit_text
+from amp_studio.schema import UNITS, Address, isolated, unit_text
 
 from .data import render_json
 from .typesetter import compiled, set_pdf
@@ -81,7 +81,7 @@ def typst_literal(value: object) -> str:
         return repr(value)
     # The backslash first: it is what the quote is then escaped with.
     text = printable(str(value)).replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{text if isinstance(value, Exact) else _breakable(text)}"'
+    return f'"{text if isinstance(value, Exact) else isolated(_breakable(text))}"'
 
 
 def _breakable(text: str) -> str:

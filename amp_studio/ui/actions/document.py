@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile, check_output, real_path
 from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, written_to
 from amp_studio.ui.window.studio_window import StudioWindow
 
 
@@ -43,7 +43,7 @@ def form(window: StudioWindow) -> None:
         tr("Form to Fill In"),
         lambda: write_paper(form_paper(file, language=language), path, notes.append),
     )
-    window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
+    window.show_status("; ".join([written_to(path), *notes]))
 
 
 def new_template(window: StudioWindow) -> None:
@@ -54,7 +54,7 @@ def new_template(window: StudioWindow) -> None:
 
     folder = real_path(window.workspace_in_front.path).parent
     written = in_background(window, tr("New Report Template"), partial(write_starting_template, folder))
-    window.show_status(tr("{path} written").format(path=written))
+    window.show_status(written_to(written))
     QDesktopServices.openUrl(QUrl.fromLocalFile(str(written.parent)))
 
 

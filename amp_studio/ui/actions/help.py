@@ -12,7 +12,7 @@ from amp_studio.files import write_atomic
 from amp_studio.trouble import last_details, log_folder
 from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, written_to
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.version import __version__
 
@@ -60,7 +60,7 @@ def report_problem(window: StudioWindow) -> None:
     near = Path.home() / "amp-studio-problem.txt"
     if path := ask_to_save(window, tr("Report a Problem"), near, "Text (*.txt)"):
         write_atomic(path, _problem_text(window, with_machine).encode(), keep_backup=False)
-        window.show_status(tr("{path} written").format(path=path))
+        window.show_status(written_to(path))
 
 
 def _problem_text(window: StudioWindow, with_machine: bool) -> str:

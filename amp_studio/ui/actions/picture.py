@@ -16,6 +16,7 @@ from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.loading import is_loaded, load, load_beside
 from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.translated import written_to
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.pictures.split import Arrangement, PictureLayout
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -164,7 +165,7 @@ class Pictures(QObject):
             path = path if path.suffix.lower() == ".svg" else Path(f"{path}.svg")
             check_output(path, own)
             write_atomic(path, scene_svg(card.canvas.scene).encode(), keep_backup=False)
-            self.window.show_status(self.tr("{path} written").format(path=path))
+            self.window.show_status(written_to(path))
 
 
 def _select(page: FilePage, address: Address) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
+from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
@@ -18,7 +19,7 @@ from amp_studio.drawing import grouped
 from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
-from amp_studio.schema import ControlMessage, Schema, program_texts, unit_text
+from amp_studio.schema import ControlMessage, Schema, isolated_path, program_texts, unit_text
 from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
@@ -138,6 +139,11 @@ def counted(number: int, noun: str, none: str = "0") -> str:
     language = language_of(_spoken)
     text = language.counted(number, noun)
     return text if number or none == "0" else f"{language.title(none)} {text.partition(' ')[2]}"
+
+
+def written_to(path: Path) -> str:
+    """Return that a file was written, in the language of the window."""
+    return tr("{path} written").format(path=isolated_path(path))
 
 
 class Translated:

@@ -13,7 +13,7 @@ from amp_studio.guide import GuideProgress
 from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, written_to
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -39,7 +39,7 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
         notes.append,
     )
     in_background(window, tr("Check List"), write)
-    window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
+    window.show_status("; ".join([written_to(path), *notes]))
     QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
 
 

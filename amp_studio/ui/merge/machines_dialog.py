@@ -35,7 +35,7 @@ from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import TaskProgress, in_background, run_with_progress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW
-from amp_studio.ui.base.translated import counted
+from amp_studio.ui.base.translated import counted, written_to
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -314,7 +314,7 @@ class MachinesDialog(QDialog):
         except (OSError, ValueError) as error:
             self.bar.say(str(error), "error")
             return
-        self.bar.say(self.tr("{path} written").format(path=path))
+        self.bar.say(written_to(path))
 
 
 def _read(machines: Sequence[_Machine], progress: TaskProgress, cancelled: threading.Event) -> list[_Machine]:

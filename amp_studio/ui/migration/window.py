@@ -27,7 +27,7 @@ from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
-from amp_studio.ui.base.translated import language_of_window, sentenced, tr
+from amp_studio.ui.base.translated import language_of_window, sentenced, tr, written_to
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -207,5 +207,5 @@ class MigrationWindow(QDialog):
         except OSError as error:
             self.bar.say(f"{folder}: {error.strerror or error}", "error")
             return
-        message = "; ".join((tr("{path} written").format(path=folder), ", ".join(written), *notes))
+        message = "; ".join((written_to(folder), ", ".join(written), *notes))
         self.bar.say(message, "information", (tr("Show in &Folder"), lambda: show_in_folder(folder)))

@@ -34,7 +34,13 @@ from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import Task, TaskProgress, in_background
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, colour, font, icon, scheme
-from amp_studio.ui.base.translated import language_of_window, scenario_in_words, sentenced, unit_in_words
+from amp_studio.ui.base.translated import (
+    language_of_window,
+    scenario_in_words,
+    sentenced,
+    unit_in_words,
+    written_to,
+)
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.elided_label import ElidedLabel
@@ -505,4 +511,4 @@ class CheckPage(PageOfFile):
                 file, path.name, checks, target, notes.append, language=language_of_window()
             ),
         )
-        self.summary.setText("; ".join([self.tr("{path} written").format(path=target), *notes]))
+        self.summary.setText("; ".join([written_to(target), *notes]))

@@ -28,7 +28,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, worded, written_to
 from amp_studio.ui.forms.form import Field, FieldForm
 
 
@@ -153,7 +153,7 @@ class IdentifyDialog(QDialog):
             except (SaveError, OSError) as error:
                 self.message.setText(self._sentence(str(error)))
             else:
-                self.message.setText(self.tr("{path} written").format(path=path))
+                self.message.setText(written_to(path))
 
 
 def _is_table_of_response(path: Path) -> bool:

@@ -20,7 +20,7 @@ from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
-from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
+from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded, written_to
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
@@ -458,9 +458,7 @@ class MotionView(PageOfFile):
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
-            self.summary.setText(
-                html.escape("; ".join([self.tr("{path} written").format(path=path), *notes]))
-            )
+            self.summary.setText(html.escape("; ".join([written_to(path), *notes])))
 
     def _end(self) -> None:
         """Ignore the result of a run that has not finished."""

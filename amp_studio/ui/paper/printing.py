@@ -15,7 +15,7 @@ from amp_studio.files import check_output
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.task import ProgressDialog, TaskProgress
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, written_to
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -67,7 +67,7 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
     ProgressDialog(
         tr("Report"), work, window, tr("Writing {name} …").format(name=path.name), cancellable=False
     ).run()
-    window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
+    window.show_status("; ".join([written_to(path), *notes]))
 
 
 def _set_for_paper(window: StudioWindow, workspace: Workspace) -> Sequence[bytes]:

@@ -22,6 +22,7 @@ from amp_studio.schema import (
     UnitError,
     Value,
     convert,
+    isolated,
     labels_of_word,
     write_value,
 )
@@ -272,7 +273,7 @@ class ShownValues(Translated):
         if address in file.forced:
             lines.append(tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
         if note := value_note(file, address):
-            lines.append(tr("Note: {text}").format(text=note))
+            lines.append(tr("Note: {text}").format(text=isolated(note)))
         return "\n".join([*lines, *self._other_values(address)])
 
     def default_text(self, address: Address) -> str:

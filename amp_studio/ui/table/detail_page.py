@@ -9,7 +9,16 @@ from collections.abc import Callable, Iterable, Iterator
 
 from amp_studio.files import axis_letter, group_note, storage_text, value_note, with_days_and_times
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
-from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    Value,
+    isolated,
+    labels_of_word,
+    limits,
+    real_value,
+    same_value,
+)
 from amp_studio.ui.base.figures import range_in_words, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.places import finding_text
@@ -154,7 +163,7 @@ class DetailPage(Translated):
         group = file.schema.group_of[address[0]]
         found = (("", value_note(file, address)), (group.own_name, group_note(file, group.key)))
         return "".join(
-            f"<p>{html.escape(text).replace(chr(10), '<br>')}"
+            f"<p>{html.escape(isolated(text)).replace(chr(10), '<br>')}"
             f"{f' <small>{html.escape(about)}</small>' if about else ''}</p>"
             for about, text in found
             if text

@@ -16,7 +16,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMainWindow
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
-from amp_studio.schema import Address
+from amp_studio.schema import Address, isolated
 from amp_studio.ui.base.garbage import collect_soon
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.side_windows import SideWindows
@@ -230,7 +230,7 @@ class StudioWindow(QMainWindow):
             return True
         # The question is about a file that is seen.
         self.tabs.bring(page)
-        question = self.tr("Save the changes to {name}?").format(name=page.workspace.path.name)
+        question = self.tr("Save the changes to {name}?").format(name=isolated(page.workspace.path.name))
         answer = ask(
             self,
             self.tr("Unsaved changes"),
