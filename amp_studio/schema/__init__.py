@@ -147,9 +147,9 @@ if TYPE_CHECKING:
         words_of,
         words_taken,
     )
-    from .text_direction import isolated, isolated_path
     from .translation.places import figures_in
     from .translation.program_texts import program_texts
+    from .translation.text_direction import isolated, isolated_path
     from .translation.texts import NO_TEXTS, fact_texts
     from .units import (
         UNITS,

@@ -58,7 +58,6 @@ def the_project_is_opened(hands: Hands, window: MainWindow, qtbot: QtBot) -> Non
     hands.enter("open project")
     hands.press("Return")
     qtbot.waitUntil(lambda: window.workspace is not None, timeout=WAIT_MS)
-    window.activateWindow()  # without a window manager a progress dialog does not give the keyboard back
     qtbot.waitUntil(lambda: QApplication.focusWidget() is window.table_view, timeout=WAIT_MS)
 
 
@@ -190,7 +189,6 @@ def test_no_command_changes_values_that_are_not_seen(window: MainWindow, name: s
     for each in ("edit.clear", "edit.fix", "edit.default", "edit.all_axes", "guide.done"):
         assert not window.menus[each].isEnabled(), each
         window.menus[each].trigger()
-    window.activateWindow()  # as above: the first page Motion of a process has a progress dialog
     qtbot.waitUntil(lambda: QApplication.focusWidget() is not None, timeout=WAIT_MS)
     Hands().press("F8")
     assert window.workspace.undo_stack.index() == steps

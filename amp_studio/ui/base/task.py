@@ -120,6 +120,8 @@ class ProgressDialog(QDialog):
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self.buttons.rejected.connect(self.reject)
         self.buttons.setVisible(cancellable)
+        if not cancellable:
+            self.setFocus()  # else the keyboard is nowhere, and its way back from here is not seen
         in_column(self.text, self.bar, self.buttons, on=self, gap=10)
         self.task = work if isinstance(work, Task) else Task(work)
         self.task.progressed.connect(self._progress)

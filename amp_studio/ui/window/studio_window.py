@@ -9,17 +9,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import Signal
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QMainWindow
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtWidgets import QApplication, QMainWindow, QWidget
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address, isolated
 from amp_studio.ui.base.garbage import collect_soon
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.side_windows import SideWindows
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.base.workspace import Workspace
@@ -61,6 +62,8 @@ class StudioWindow(QMainWindow):
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
         self.docks = Docks(self, self.settings)
+        self._take_keyboard = single_shot(self, self._take_keyboard_back)
+        cast("QApplication", QApplication.instance()).focusChanged.connect(self._follow_keyboard)
 
     @cached_property
     def report_options(self) -> ReportOptions:
@@ -68,6 +71,21 @@ class StudioWindow(QMainWindow):
         from .report_options import ReportOptions
 
         return ReportOptions(self.settings, self)
+
+    # -- the keyboard ------------------------------------------------------------
+
+    def _follow_keyboard(self, _: QWidget | None, now: QWidget | None) -> None:
+        if now is None:
+            self._take_keyboard.start()
+
+    def _take_keyboard_back(self) -> None:
+        """Take the keyboard from a dialog that has closed: without a window manager nobody gives it back."""
+        is_nowhere = QApplication.activeWindow() is None
+        # Another program that has it makes this one inactive: from that nothing is taken.
+        if is_nowhere and QGuiApplication.applicationState() == Qt.ApplicationState.ApplicationActive:
+            front = QApplication.activeModalWidget() or self
+            if front.isVisible():
+                front.activateWindow()
 
     # -- the project and the files -----------------------------------------------
 
