@@ -27,17 +27,10 @@ if TYPE_CHECKING:
     from .given import GivenTypeError
     from .machine import MachineParameters, import_text
     from .machine import edit_machine as edit
+    from .machine import family_schema as load_schema
     from .machine import new_machine as new
     from .machine import open_machine as open  # noqa: A004  # amp.open, as gzip.open
-    from .schema import (
-        DatabaseError,
-        Schema,
-        UnknownFamilyError,
-        UnknownParameterError,
-        Value,
-        family_ids,
-        load_schema,
-    )
+    from .schema import DatabaseError, Schema, UnknownFamilyError, UnknownParameterError, Value, family_ids
     from .sim import MotionCheck, SimulationError, Trace
     from .transfer import CancelledError, ControlIdentity, ControlStatus, ImageError, TransferError
     from .transfer.client import CopyError, DigestError, ImageComparison, Outcome

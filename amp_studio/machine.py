@@ -448,6 +448,14 @@ def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParamet
 
 
 @checked_types
+def family_schema(family: str) -> Schema:
+    """Return the typed schema of a family; raises UnknownFamilyError, and DatabaseError for a bad fact."""
+    from amp_studio.schema import load_schema
+
+    return load_schema(family)
+
+
+@checked_types
 def new_machine(
     family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
 ) -> MachineParameters:

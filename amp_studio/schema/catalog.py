@@ -137,7 +137,7 @@ class Schema:
         """Return a parameter by id; raises UnknownParameterError."""
         try:
             return self.parameters[parameter_id]
-        except KeyError:
+        except (KeyError, TypeError):  # no text at all
             raise UnknownParameterError(f"Unknown parameter '{parameter_id}' of {self.family.name}") from None
 
     def page(self, address: Address) -> str:

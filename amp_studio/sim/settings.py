@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from numbers import Real
 
 from amp_studio.schema import UNITS, InvalidValueError, canonical, dimension, read_number, unit_named
 
@@ -38,6 +39,9 @@ def read_settings(
     values: dict[str, ParameterValue] = {}
     written: dict[str, str] = {}
     for name, value in given.items():
+        is_number = isinstance(value, float) or (isinstance(value, Real) and abs(value) < 1e308)
+        if not (is_number or value is None or isinstance(value, str)):
+            raise SimulationError(f"{name} is {value!r:.80}, not a number", name)
         values[name], units = value, units_of(known.get(name, ""))
         number, rest = _number_and_unit(value)
         if not isinstance(number, float):
