@@ -296,6 +296,52 @@ def test_the_prose_of_tests_and_scripts_uses_the_words_of_the_field(folder: str)
     assert not found, "\n".join(found)
 
 
+_COMMAND_LINE = re.compile(r"(?<![\w-])--[a-z]|\bamp-studio [a-z]")
+_WINDOW = re.compile(r"\b[A-Z]\w+ > [A-Z]|\b(?:in|of) the window\b|\btool bar\b|\bclick\b")
+AT_ITS_PLACE = {
+    "amp_studio/demo.py": "is run in a terminal",
+    "amp_studio/ui/base/display.py": "is printed in a terminal, where no window can be",
+}
+"""Modules whose sentences are shown in one place only -> which."""
+
+
+def messages_of(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield line and text of every string of a module that is neither a docstring nor a word alone."""
+    prose = set(prose_of(path))
+    yield from (each for each in texts_of(path) if each not in prose and not each[1].startswith("#"))
+
+
+def shared_texts() -> Iterator[tuple[str, int, str]]:
+    """Yield file, line and text of what command line, window and library all show."""
+    for path in sorted((ROOT / "amp_studio").rglob("*.py")):
+        name = path.relative_to(ROOT).as_posix()
+        if not name.startswith("amp_studio/cli/") and name not in AT_ITS_PLACE:
+            yield from ((name, line, text) for line, text in messages_of(path))
+    texts = [*(ROOT / "amp_studio/languages").glob("*.toml"), *(ROOT / "parameter_db").rglob("*.yaml")]
+    for path in sorted(texts):
+        for n, line in enumerate(path.read_text("utf-8").splitlines(), 1):
+            yield path.relative_to(ROOT).as_posix(), n, re.sub(r"(^| +)#.*", "", line)
+
+
+def test_what_all_show_names_no_option_or_verb_of_the_command_line() -> None:
+    """A setting is named by its own name, which all three take; the command line adds its option."""
+    found = [
+        f"{name}:{n}: {text.strip()[:120]}" for name, n, text in shared_texts() if _COMMAND_LINE.search(text)
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_what_command_line_and_library_show_names_no_menu_of_the_window() -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{n}: {text.strip()[:120]}"
+        for path in sorted((ROOT / "amp_studio").rglob("*.py"))
+        if path.relative_to(ROOT).parts[1] != "ui"
+        for n, text in messages_of(path)
+        if _WINDOW.search(text)
+    ]
+    assert not found, "\n".join(found)
+
+
 def facts_of(node: object, key: str = "", place: str = "") -> Iterator[tuple[str, str, str]]:
     """Yield the texts of some facts, each with the id of its entry and the key that it is under."""
     if isinstance(node, dict):

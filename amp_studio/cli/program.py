@@ -95,7 +95,8 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     except BaseException as error:  # a panic of the rule engine is no Exception
         if stop_was_requested():  # what was interrupted may end in any error
             raise KeyboardInterrupt from None
-        return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "at_control", ""), FAULT))
+        code = AT_CONTROL.get(getattr(error, "at_control", ""), FAULT)
+        return _refuse(_sentence(error) + _way(error, arguments[0]), replaced, code)
     return code
 
 
@@ -152,6 +153,19 @@ def _sentence(error: BaseException) -> str:
     if isinstance(error, (UsageError, UnknownParameterError, DatabaseError, ValueError, OSError)):
         return str(error)
     return keep_details(error)
+
+
+def _way(error: BaseException, verb: str) -> str:
+    """Return where the command line does what an error asks for: its sentence is that of the window too."""
+    from .controls.endings import way_to_know
+    from .registry import module_of, verb_names
+
+    option = f"--{str(getattr(error, 'parameter', '')).removeprefix('move.')}"
+    if verb in verb_names() and option in module_of(verb).VERB.options:
+        return f" ({option})"
+    if getattr(error, "is_keyed_in", False):
+        return " (amp-studio sheet FILE --against OTHER)"
+    return way_to_know(getattr(error, "at_control", ""))
 
 
 def _quit() -> int:

@@ -96,7 +96,7 @@ def account_of_import(file: ParameterFile, read: TextRead) -> Account:
 def _why_missing(file: ParameterFile, address: Address, title: str, left_out: frozenset[Address]) -> str:
     """Return why a value of a file is not in a text."""
     if address in left_out:
-        return "secret values are left out (to write them: --secrets, in the window View > Show Secrets)"
+        return "secret values are left out unless secrets are to be shown"
     state = file.evaluation.state(address)
     if state.state == "hidden":
         return "it does not exist for this configuration"

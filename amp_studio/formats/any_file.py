@@ -52,7 +52,7 @@ def open_for_reading(
     try:
         return import_file(path, family, machine=machine, notify=notify)
     except FamilyNotGivenError as error:
-        raise ParameterFileError(path, None, f"{error} (name it with --family)") from None
+        raise ParameterFileError(path, None, f"{error}: name the family") from None
     except FormatError as error:
         raise ParameterFileError(path, error.line, error.what) from None
     except OSError as error:

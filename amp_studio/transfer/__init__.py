@@ -39,6 +39,5 @@ if TYPE_CHECKING:
     from .sent_values import SentValues
     from .status import ActiveFault, AxisStatus, ControlStatus, known_fault
     from .waiting import OpenLink, Waiting
-    from .ways import PRINT_SHEET
 else:
     __getattr__ = front_page(__name__)

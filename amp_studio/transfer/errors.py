@@ -20,17 +20,11 @@ AT_CONTROL_TEXT: dict[AtControl, str] = {
     "new": "the control contains the new image, which was not read back",
     "mixed": "the control contains some of the new values and the old ones of the rest",
     "defaults": "the control has lost its memory and contains its defaults",
-    "unknown": (
-        "whether the control contains the old or the new image is not known: verify before you go on "
-        "(amp-studio verify FILE --with ADDRESS)"
-    ),
+    "unknown": "whether the control contains the old or the new image is not known: verify before you go on",
 }
 
 
-WHICH_IS_NOT_KNOWN = (
-    "which of the new values the control contains is not known: verify before you go on (amp-studio verify"
-    " FILE --with ADDRESS)"
-)
+WHICH_IS_NOT_KNOWN = "which of the new values the control contains is not known: verify before you go on"
 """Instead of "the old or the new image" for a control that takes single values:
 only one that commits all or nothing has one of two."""
 

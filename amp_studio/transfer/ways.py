@@ -10,7 +10,6 @@ HOUSE = "house"
 """The protocol in which a gateway is spoken to."""
 SCREEN = "screen"
 """The protocol in the address of the screen of an emulated control."""
-PRINT_SHEET = "print what to key in with amp-studio sheet FILE --against OTHER"
 
 
 def in_order_of_ways(family: str, own: Mapping[str, str], of_gateway: str) -> dict[str, str]:

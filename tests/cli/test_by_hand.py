@@ -88,7 +88,7 @@ def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in_and_not_download
         refused = amp("download", path, "--to", "tcp://127.0.0.1:1", "--accept-errors")
         assert refused.code == 2
         assert (
-            "Values are keyed in at the screens of a tiny: print what to key in with amp-studio sheet"
+            "Values are keyed in at the screens of a tiny: print a sheet of what to key in (amp-studio sheet"
             in refused.err
         )
         refused = amp("emulate", "tiny", "--listen", "tcp://127.0.0.1:0")

@@ -424,6 +424,11 @@ def test_a_simulation_has_the_promised_shape(amp, mill: Path, folder) -> None:
         (("step", "--axis", "Q"), "Unknown axis 'Q'. Known: "),
         (("step", "--set", "9999=1"), "Unknown parameter '9999'"),
         (("step", "--set", "1300"), "'1300' is not PARAM=VALUE"),
+        (("tap",), "Give move.pitch, as 1 (--pitch)"),
+        (
+            ("sweep", "--over", "model.delay=1+-0.1"),
+            "model.delay has a distribution: say how many samples (--samples)",
+        ),
     ],
 )
 def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, arguments, message: str) -> None:

@@ -90,7 +90,7 @@ def test_an_order_of_the_program_has_no_sie() -> None:
 @pytest.mark.parametrize(
     "wrong",
     [
-        r"\"\w|(?<!--scale )(?<!--turn )(?<!install )'[^' ]\S*'",  # „…“, but what is typed at a shell
+        r"\"\w|(?<!install )'[^' ]\S*'",  # „…“, but what is typed at a shell
         r"(?<![=+-])\b\d+%",
         r"\b(das|dem|vom|zum) [^.;]*-fachen?\b",
         r"(?<!  ) — ",

@@ -138,7 +138,7 @@ def test_a_torque_in_amperes_needs_its_scale(record: Path, tmp_path: Path) -> No
         + "".join(f"{t},{v},{0.05 * float(i)}\n" for t, v, i in cells)
     )
     with pytest.raises(
-        SimulationError, match=r"in A, that of axis 1 in %: give how much is 1 %, as --scale '0\.056 A'"
+        SimulationError, match=r"in A, that of axis 1 in %: give how much is 1 %, as '0\.056 A'"
     ):
         identify(MILL, path, "1")
     with pytest.raises(SimulationError, match="The scale is in Nm, and the torque of the record in A"):

@@ -6,7 +6,7 @@ from math import copysign, cos, sin
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QDialog, QFileDialog, QFormLayout, QLineEdit
+from PySide6.QtWidgets import QComboBox, QDialog, QFileDialog, QFormLayout, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import open_file
@@ -70,6 +70,11 @@ def test_a_frequency_response_gives_its_resonance_and_the_notch_for_it(qtbot: Qt
     assert dialog.form.editors["chirp"].isHidden()
     assert dialog.use.isEnabled()
     assert doubled(texts_of(dialog)) == {}
+    motion = dialog.form.editor("motion", QComboBox)
+    motion.setCurrentIndex(motion.findData("velocity"))
+    assert "The response is not that of inertia" in dialog.message.text()
+    motion.setCurrentIndex(motion.findData("position"))
+    assert "the position of the motor" in dialog.trace.model
 
 
 def test_amperes_need_a_scale_and_then_the_fit_is_shown(dialog: IdentifyDialog) -> None:

@@ -9,8 +9,10 @@ from contextlib import contextmanager
 
 from amp_studio.cli.console import print_remark
 from amp_studio.schema import load_schema
-from amp_studio.transfer import PRINT_SHEET, ControlSilentError, NoConnectionError, TransferError
+from amp_studio.transfer import ControlSilentError, NoConnectionError, TransferError
 from amp_studio.transfer.links import parse_endpoint
+
+PRINT_SHEET = "print what to key in with amp-studio sheet FILE --against OTHER"
 
 
 def print_by_hand(family: str) -> None:

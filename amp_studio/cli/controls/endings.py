@@ -35,6 +35,11 @@ def print_errors(machine: MachineParameters) -> str:
     return counted(len(errors), "error") if errors else ""
 
 
+def way_to_know(at_control: str) -> str:
+    """Return by which verb a user finds out what the control contains, if it is not known."""
+    return " (amp-studio verify FILE --with ADDRESS)" if at_control == "unknown" else ""
+
+
 def print_outcome(outcome: Outcome) -> int:
     """Print how an exchange ended and return the exit code; where it cannot be printed,
     that is no full success.
@@ -43,7 +48,7 @@ def print_outcome(outcome: Outcome) -> int:
     """
     code = 0 if outcome.verified else AT_CONTROL[outcome.at_control]
     try:  # a terminal takes each line at once, and may be gone
-        print(outcome.text)
+        print(outcome.text + way_to_know(outcome.at_control))
         if outcome.verified:
             print(f"sha256 {outcome.sha256}")
         flush_results()

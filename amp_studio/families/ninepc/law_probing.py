@@ -26,7 +26,7 @@ LATENCY = (
     " printed."
 )
 PROGRAMMED = (
-    "Use AMP Skip Feedrate (4) is not yes: the cycle goes at the programmed feedrate, which --speed gives"
+    "Use AMP Skip Feedrate (4) is not yes: the cycle goes at the programmed feedrate, which move.speed gives"
     " (9-8)."
 )
 

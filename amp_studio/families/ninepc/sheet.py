@@ -202,10 +202,7 @@ KEYING = Keying(
         ),
         Instruction("Switch the control off and on: then the values become active.", "37-3"),
         Instruction("AMP HAS BEEN MODIFIED BY PATCH AMP appears at every power-up; [CAN] clears it.", "37-3"),
-        Instruction(
-            "Read each value back in Patch AMP, write down what the screen shows, and compare: "
-            "amp-studio sheet FILE --against OTHER --check LIST."
-        ),
+        Instruction("Read each value back in Patch AMP, write down what the screen shows, and compare."),
         Instruction("When the machine runs as it should: {UPDATE BACKUP}, AMP, {TO BACKUP}.", "37-15"),
         Instruction(
             "To end the message for good, upload the AMP file, edit and save it, and download it.", "37-3"

@@ -44,9 +44,7 @@ KEYING = Keying(
     ),
     after=(
         Instruction("Leave the editor, confirm the changes, and reset the CNC.", "13-9"),
-        Instruction(
-            "Display each word again, write down what the screen shows, and compare (--check).", "13-6"
-        ),
+        Instruction("Display each word again, write down what the screen shows, and compare.", "13-6"),
         Instruction("Unload the new table or print it.", "13-8"),
     ),
 )

@@ -28,6 +28,6 @@ KEYING = Keying(
         Instruction(
             "Reset the control: the guide prints so for Pr2401 to Pr2440, and nothing for the others.", "3.2"
         ),
-        Instruction("Read each value on its screen, write it down, and compare (--check)."),
+        Instruction("Read each value on its screen, write it down, and compare."),
     ),
 )

@@ -435,7 +435,7 @@ def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> flo
     if own == "rpm" or (unit == "mm" and dimension(own) in ("angle", "angular velocity")):
         if turn is None:
             raise SimulationError(
-                f"The record is in {own}: give the travel for a turn of the motor, as --turn '10 mm'"
+                f"The record is in {own}: give the travel for a turn of the motor, as '10 mm'", "turn"
             )
         way = travel_per_turn(turn, unit)
         turns = 1.0 if own == "rpm" else canonical(1.0, own) / 360.0

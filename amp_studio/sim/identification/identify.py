@@ -128,7 +128,8 @@ def record_scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> floa
             return 1.0
         raise SimulationError(
             f"The torque of the record is in {own}, that of axis {bound.axis} in {wanted}: "
-            f"give how much is 1 {wanted}, as --scale '0.056 {own}'"
+            f"give how much is 1 {wanted}, as '0.056 {own}'",
+            "scale",
         )
     figure, unit = torque_figure(scale)
     if unit != own:

@@ -219,7 +219,7 @@ def _assumed(fitted: PlantFit, bound: AxisLaw) -> tuple[str, ...]:
 def _doubts(response: FrequencyResponse, fitted: PlantFit) -> list[str]:
     doubts = []
     if not fitted.sure:
-        doubts.append(f"Another motion than the {fitted.quantity} would fit about as well: give --response")
+        doubts.append(f"Another motion than the {fitted.quantity} would fit about as well: give the motion")
     if response.left_out:
         doubts.append(f"{response.left_out} frequencies were left out, their coherence is below 0.8")
         doubts.append(_NOT_LINEAR)

@@ -113,10 +113,7 @@ def machine_text(trace: Trace, family: str) -> str:
     ]
     return "\n".join(
         [
-            (
-                f"# The machine of axis {axis}, as the record of its drive shows it. To simulate with it:"
-                " --machine and this file."
-            ),
+            f"# The machine of axis {axis}, as the record of its drive shows it, to simulate with.",
             f"family: {scalar_text(family)}",
             f"axis: {scalar_text(axis)}",
             f"torque: {scalar_text(torque)}",

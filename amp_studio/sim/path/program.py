@@ -30,9 +30,7 @@ MAX_ROWS = 50_000
 """Rows of a path that the servo loops are run on."""
 LONGEST_WAIT = 5.0
 """s that an exact stop is waited for in position."""
-NO_ZERO = (
-    "Limits of travel are not checked: where the zero of the program is, the file does not have. Give --zero."
-)
+NO_ZERO = "Limits of travel are not checked: give the zero of the program, which is not in the file."
 
 
 @dataclass(frozen=True)

@@ -295,7 +295,7 @@ def _notes(machine: BoundMachine, axes: Mapping[str, AxisLaw], zones: Sequence[Z
     others = {axis for zone in zones for axis in zone.sides if axis not in axes}
     if others:
         names = ", ".join(sorted(machine.letter(axis) or axis for axis in others))
-        yield f"ASSUMED: {names} is where the zones are: give it with --axis to have its place checked."
+        yield f"ASSUMED: {names} is where the zones are: choose it too to have its place checked."
 
 
 def _unit(axes: Mapping[str, AxisLaw]) -> str:

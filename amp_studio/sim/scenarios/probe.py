@@ -23,9 +23,7 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 
 SETTINGS = {
-    "move.speed": (
-        "speed at which the probe is met (mm/min or deg/min); --speed is the same; default: that of the file"
-    ),
+    "move.speed": "speed at which the probe is met (mm/min or deg/min); default: that of the file",
     "move.cycle": "which cycle of the control, as G31 or G38; default: the first one",
     "move.expected": (
         "where the signal is expected, from the start (mm or deg); default: far enough to reach the speed"
@@ -52,7 +50,7 @@ def run_probe(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     given = above_zero(settings, "move.speed")
     speed = probing.speed if given is None else given / 60.0
     if not speed:
-        raise SimulationError(f"Give the speed of {probing.name}: probe --speed 100", "move.speed")
+        raise SimulationError(f"Give the speed of {probing.name}: move.speed, as 100", "move.speed")
     latency = number(settings, "move.latency")
     if latency is not None and latency < 0.0:
         raise SimulationError("move.latency must not be negative", "move.latency")

@@ -98,7 +98,7 @@ def _programmed(spindle: Spindle, settings: ScenarioSettings) -> float:
         return max((gear.high for gear in spindle.gears), default=0.0)
     speed = number(settings, "move.speed")
     if speed is None:
-        raise SimulationError("Give the programmed speed: spindle S1500, or move.speed", "move.speed")
+        raise SimulationError("Give the programmed speed: move.speed, as 1500", "move.speed")
     return speed
 
 

@@ -27,8 +27,8 @@ from .columns import alarms_of, column_units, per_minute
 from .spindle import HIGHEST, spindle_of
 
 SETTINGS = {
-    "move.pitch": "pitch of the thread (mm); --pitch is the same",
-    "move.speed": "speed of the spindle (rpm), or highest; --speed is the same",
+    "move.pitch": "pitch of the thread (mm)",
+    "move.speed": "speed of the spindle (rpm), or highest",
     "move.depth": "depth of the hole (mm); default: 15 mm",
     "move.spindle": "which spindle, by its number; default: the first",
     "move.gear": "the gear it is in; default: one that has the speed",
@@ -67,8 +67,8 @@ def run_tap(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         raise SimulationError("No solid tapping is printed for this family")
     pitch = above_zero(settings, "move.pitch")
     if pitch is None or settings.get("move.speed") is None:
-        name = "move.pitch" if pitch is None else "move.speed"
-        raise SimulationError(f"Give {name}: tap --pitch 1 --speed 600", name)
+        name, example = ("move.pitch", 1) if pitch is None else ("move.speed", 600)
+        raise SimulationError(f"Give {name}, as {example}", name)
     depth = above_zero(settings, "move.depth") or DEPTH
     spindle = spindle_of(machine, settings)
     speed = _speed(spindle, settings)

@@ -2,8 +2,8 @@
 
     servo.initial_gain@X=0.5:2:21            21 values, even steps
     servo.initial_gain@X=0.25:4:21:log       even factors
-    model.inertia_ratio=0.5:2                between two values, for --samples
-    model.coulomb_friction=4.1+-0.3          a normal distribution, for --samples
+    model.inertia_ratio=0.5:2                between two values, for samples
+    model.coulomb_friction=4.1+-0.3          a normal distribution, for samples
 
 Samples are stratified (M. McKay, R. Beckman, W. Conover, Technometrics 21, 1979): of N samples one is in each
 N-th part of every distribution, so that percentiles need fewer of them.
@@ -28,7 +28,7 @@ MAX_VARIATIONS = 1_000_000
 """Variations of one sweep at most."""
 SETTINGS = ("model", "move")
 """First words of what is varied and is no parameter."""
-_FORM = "NAME=FROM:TO:STEPS, or NAME=MEAN+-SIGMA with --samples"
+_FORM = "NAME=FROM:TO:STEPS, or NAME=MEAN+-SIGMA with samples"
 _SIGMAS = 4.0
 """A normal distribution is cut there."""
 
@@ -174,7 +174,7 @@ def points_of(varied: Sequence[Varied], samples: int | None, seed: int) -> Matri
         return _sampled(varied, samples, seed)
     for each in varied:
         if each.normal:
-            raise SimulationError(f"{each.name} has a distribution: say how many --samples", each.name)
+            raise SimulationError(f"{each.name} has a distribution: say how many samples", "samples")
     grids = [each.grid() for each in varied]
     if math.prod(len(grid) for grid in grids) > MAX_VARIATIONS:
         raise SimulationError(f"The steps make more than {MAX_VARIATIONS} variations: give fewer of them")

@@ -21,7 +21,7 @@ from amp_studio.transfer.links import (
     parse_endpoint,
 )
 from amp_studio.transfer.waiting import Waiting
-from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, folder_protocols, in_order_of_ways
+from amp_studio.transfer.ways import HOUSE, folder_protocols, in_order_of_ways
 
 RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
 """Seconds in which a control may answer by which it is known;
@@ -45,7 +45,9 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     place = parse_endpoint(endpoint) if isinstance(endpoint, str) else endpoint
     offered = protocols_of(family)
     if not offered:
-        raise EndpointError(f"{load_schema(family).family.by_hand}: {PRINT_SHEET}")
+        error = EndpointError(f"{load_schema(family).family.by_hand}: print a sheet of what to key in")
+        error.is_keyed_in = True
+        raise error
     name = place.protocol or next(iter(offered))
     if place.kind == "folder":
         name = next((each for each in folder_protocols() if each in offered), "")

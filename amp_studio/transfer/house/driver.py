@@ -53,8 +53,7 @@ class HouseDriver(HouseContent):
         some, all_of_them = self.session.sampled
         return (
             f"the control states the digest of the new image for what it contains, and {some} of"
-            f" {all_of_them} pieces, chosen at random, were read back equal (amp-studio verify reads"
-            " everything)"
+            f" {all_of_them} pieces, chosen at random, were read back equal (a verification reads everything)"
         )
 
     def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:

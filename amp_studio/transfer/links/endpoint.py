@@ -20,7 +20,7 @@ from .serial_settings import DATA_BITS, FLOWS, PARITIES, STOP_BITS, Flow, Parity
 
 FORMS = (
     "tcp://host:port, tls://host:port, rfc2217://host:port, serial:/dev/ttyUSB0?baud=9600, COM3, "
-    "folder:NAME.ini or pty: (emulate only)"
+    "folder:NAME.ini or pty: (an emulated control only)"
 )
 
 LinkKind = Literal["tcp", "tls", "rfc2217", "serial", "folder", "pty"]
@@ -33,6 +33,9 @@ FOLDER = "folder:"
 
 class EndpointError(AmpStudioError, ValueError):
     """A text that is no address of a control, or one at which it cannot be spoken to as was asked."""
+
+    is_keyed_in = False
+    """Whether no way to a control of the family is known, so that its values are keyed in."""
 
 
 @dataclass(frozen=True)

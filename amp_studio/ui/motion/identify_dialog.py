@@ -7,7 +7,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QCheckBox, QDialog, QFormLayout, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QWidget,
+)
 
 from amp_studio.files import ParameterFile, SaveError
 from amp_studio.sim import (
@@ -64,10 +73,22 @@ class IdentifyDialog(QDialog):
             is_response,
             visible=lambda _answers: not is_response,
         )
-        self.form = FieldForm((scale, turn, chirp))
+        motion = Field(
+            "motion",
+            self.tr("M&otion"),
+            "choice",
+            choices=(
+                ("", self.tr("as slope and phase show")),
+                *((name, worded(name)) for name in ("position", "velocity", "acceleration")),
+            ),
+            tip=self.tr("Motion of the response for 1 of torque"),
+            visible=lambda answers: bool(answers["chirp"]),
+        )
+        self.form = FieldForm((scale, turn, chirp, motion))
         for name in ("scale", "turn"):
             self.form.editor(name, QLineEdit).editingFinished.connect(self.refresh)
         self.form.editor("chirp", QCheckBox).toggled.connect(self.refresh)
+        self.form.editor("motion", QComboBox).currentIndexChanged.connect(self.refresh)
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
@@ -97,11 +118,11 @@ class IdentifyDialog(QDialog):
     def refresh(self) -> None:
         """Fit the record again with the scale that is given."""
         scale, turn = self.form.answer("scale") or None, self.form.answer("turn") or None
-        by_response = self.form.answer("chirp")
+        by_response, motion = self.form.answer("chirp"), self.form.answer("motion") or None
 
         def work() -> Trace:
             if by_response:
-                return identify_response(self._file, self._path, self._axis, scale, turn=turn)
+                return identify_response(self._file, self._path, self._axis, scale, None, motion, turn)
             return identify(self._file, self._path, self._axis, scale, turn=turn)
 
         try:

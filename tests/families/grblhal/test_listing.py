@@ -180,7 +180,7 @@ def test_every_text_that_is_no_value_is_named_at_once_and_can_be_kept() -> None:
     assert (
         str(error.value)
         == "line 1, column 1: $0: '1e-05' is not a number; so are $22 (line 3), $100 (line 4). "
-        "To keep what is no value as text: --keep-unknown"
+        "What is no value can be kept as an unknown setting"
     )
     assert everything(text, keep_unknown=True).unknown == {"$0": "1e-05", "$22": "1.5", "$100": ""}
 
@@ -215,7 +215,7 @@ def test_of_several_listings_the_last_is_read_and_another_can_be_chosen(
         assert open_file(made).file.values["axis.max_rate", "X"] == Value(rate, "mm/min")
     error = capsys.readouterr().err
     assert "the text has 4 listings, and number 4 is read (line 128, 'Machine 4:')" in error
-    assert "--listing chooses another: 1 (line 5, 'Machine 1:'), 2 (line 46" in error
+    assert "as none was given. Others: 1 (line 5, 'Machine 1:'), 2 (line 46" in error
     assert run(["import", str(text), "-o", str(tmp_path / "x.amp"), "--listing", "5"]) == 2
     assert "there is no listing 5, the text has 4 listings" in capsys.readouterr().err
 

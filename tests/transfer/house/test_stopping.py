@@ -154,7 +154,7 @@ def test_an_unanswered_commit_is_given_up_within_20_seconds(
     assert 19.9 <= made.clock.now - asked[0] <= 20.2
     assert isinstance(caught.value, ControlSilentError if lines > 2 else ConnectionCutError)
     assert caught.value.at_control == "unknown"
-    assert "amp-studio verify FILE --with ADDRESS" in str(caught.value)
+    assert "verify before you go on" in str(caught.value)
     assert "kept in kept.amp" in str(caught.value)
 
 

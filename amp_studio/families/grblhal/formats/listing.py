@@ -276,7 +276,7 @@ def _unreadable(listing: LoggedListing, fit: _Fit) -> FormatError:
     first, more = numbers[0], numbers[1:]
     others = f"; so {_are(more)} {', '.join(f'${n} (line {listing.lines[n]})' for n in more)}" if more else ""
     return FormatError(
-        f"{fit.unreadable[first]}{others}. To keep what is no value as text: --keep-unknown",
+        f"{fit.unreadable[first]}{others}. What is no value can be kept as an unknown setting",
         listing.lines[first],
         1,
     )
@@ -298,7 +298,7 @@ def _notes(
     if not options.machine:
         family = schema.family
         keys = ", ".join(m.key for m in family.machines)
-        yield f"machine type {family.machine_name(fit.machine)}; --machine chooses another: {keys}"
+        yield f"machine type {family.machine_name(fit.machine)}, as none was given. Known: {keys}"
 
 
 def _notes_of_listings(log: Log, listing: LoggedListing) -> Iterator[str]:
@@ -309,7 +309,7 @@ def _notes_of_listings(log: Log, listing: LoggedListing) -> Iterator[str]:
         )
         yield (
             f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read"
-            f" ({_place(listing)}). import --listing chooses another: {others}"
+            f" ({_place(listing)}), as none was given. Others: {others}"
         )
     if listing.changed:
         changes = ", ".join(

@@ -136,7 +136,7 @@ def _notes(ini: IniText, schema: Schema, machine: str, options: ReadOptions) -> 
     if not options.machine:
         name = schema.family.machine_name(machine)
         others = ", ".join(m.key for m in schema.family.machines)
-        yield f"read as {name}; --machine chooses another version: {others}"
+        yield f"read as {name}, as no version was given. Known: {others}"
 
 
 def _hal_references(ini: IniText, beside: Callable[[str], str | None]) -> dict[str, list[str]]:
@@ -377,7 +377,7 @@ def _write(file: ParameterFile) -> str:
     if changed := [name for name, text in texts.items() if name and text != included[name]]:
         raise FormatError(
             f"a value of the included file {changed[0]} was changed: change it there, or send the file to the"
-            " folder (download --to folder:NAME.ini)"
+            " folder (folder:NAME.ini)"
         )
     kept = file.header.extra.get(_KIND)
     encoding = str(kept.get("encoding", "utf-8")) if isinstance(kept, dict) else "utf-8"
