@@ -41,7 +41,7 @@ def test_what_was_not_read_is_shown(slow) -> None:
     outcome, _ = exchanged(slow)
     assert outcome.text.startswith(
         "Download complete: the control states the digest of the new image for what it contains, and 6 of 52"
-        " pieces, chosen at random, were read back equal (amp-studio verify reads everything); the control"
+        " pieces, chosen at random, were read back equal (a verification reads everything); the control"
         " has restarted with it."
     )
 
