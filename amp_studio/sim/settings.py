@@ -39,8 +39,7 @@ def read_settings(
     values: dict[str, ParameterValue] = {}
     written: dict[str, str] = {}
     for name, value in given.items():
-        is_number = isinstance(value, float) or (isinstance(value, Real) and abs(value) < 1e308)
-        if not (is_number or value is None or isinstance(value, str)):
+        if not (value is None or isinstance(value, str) or _is_number(value)):
             raise SimulationError(f"{name} is {value!r:.80}, not a number", name)
         values[name], units = value, units_of(known.get(name, ""))
         number, rest = _number_and_unit(value)
@@ -53,6 +52,15 @@ def read_settings(
         elif unit == "in" and units and units[0] in _ANGULAR:
             values[name] = canonical(number, own_unit(units[0], unit))
     return values, written
+
+
+def _is_number(value: object) -> bool:
+    """Return whether a value is a number that a float can be."""
+    try:
+        float(value if isinstance(value, Real) else "none")
+    except (OverflowError, ValueError):
+        return False
+    return True
 
 
 def _number_and_unit(value: ParameterValue) -> tuple[ParameterValue, str]:
