@@ -173,6 +173,7 @@ if TYPE_CHECKING:
         is_mask,
         label_of,
         not_readable,
+        read_bare_number,
         read_exact,
         read_number,
         read_value,

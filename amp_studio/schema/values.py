@@ -69,6 +69,16 @@ def read_number(text: str) -> tuple[float, str]:
     return number, rest
 
 
+def read_bare_number(text: str, *units: str) -> float:
+    """Read a number of something that has its unit already, which may be written behind it; raises
+    InvalidValueError for another one: ``5 in`` are no 5 mm.
+    """
+    number, rest = read_number(text.strip())
+    if rest.strip() not in ("", *units):
+        raise InvalidValueError(f"{quoted(text.strip())} is no bare number")
+    return number
+
+
 def _digits(text: str) -> tuple[str, str]:
     """Return a number with decimal point and exponent as Python writes it, and what follows;
     raises InvalidValueError.
@@ -102,7 +112,8 @@ def _decimal(digits: str, exponent: str) -> str:
     elif digits.count(",") > 1:
         digits = _without_groups(digits, ",", digits)
     elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
-        ways = [digits.replace(",", point) + exponent for point in ("", ".")]
+        # With one decimal more, which can be read one way only, whichever sign the language writes.
+        ways = [digits.replace(",", "") + exponent, digits.replace(",", ".") + "0" + exponent]
         raise InvalidValueError(f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}")
     else:
         digits = digits.replace(",", ".")

@@ -13,7 +13,7 @@ from functools import cache
 from types import UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from amp_studio.schema import InvalidValueError, quoted, read_number, unknown_name, visible, write_number
+from amp_studio.schema import InvalidValueError, quoted, read_bare_number, unknown_name, visible, write_number
 
 from .functions import formulas
 
@@ -51,11 +51,16 @@ class Argument:
         return _title(self.name)
 
     @property
+    def is_several(self) -> bool:
+        """Whether it is a list."""
+        return get_origin(self.kind) not in (None, Union, UnionType, Literal)
+
+    @property
     def example(self) -> str:
         """How it is written, where it is more than a number."""
         if self.kind is bool:
             return "yes or no"
-        if self.kind in (float, int):
+        if self.kind in (float, int, float | None):
             return ""
         return "text" if self.kind is str else "values with commas, pairs in [ ]"
 
@@ -142,11 +147,12 @@ def _read(argument: Argument, text: str) -> Any:
         if argument.kind is bool:
             return _YES_NO[text.casefold()]
         if argument.kind in (float, int):
-            number, rest = read_number(text)
-            if rest.strip():
-                raise InvalidValueError(f"{quoted(text)} is no plain number")
-            return TypeAdapter(argument.kind).validate_python(number)
-        found = TypeAdapter(argument.kind).validate_python(_several(argument.kind, text))
+            return TypeAdapter(argument.kind).validate_python(read_bare_number(text))
+        if argument.kind == (float | None) and text.casefold() != "none":
+            return read_bare_number(text)
+        one = None if text.casefold() == "none" else text
+        values = _several(argument.kind, text) if argument.is_several else one
+        found = TypeAdapter(argument.kind).validate_python(values)
         return list(found) if isinstance(found, Iterator) else found  # pydantic checks its items only now
     except (InvalidValueError, KeyError, ValueError, RecursionError):
         example = f" ({argument.example})" if argument.example else ""
@@ -154,14 +160,12 @@ def _read(argument: Argument, text: str) -> Any:
 
 
 def _several(kind: Any, text: str) -> Any:
-    """Return the values of a text with commas and brackets: ``[REAL,1],[INT,4]``, ``X,X,Z``, ``1.5,2``;
-    raises ValueError.
+    """Return the values of a text with commas and brackets: ``[REAL,1],[INT,4]``, ``X,X,Z``, ``1.5,2`` or
+    ``1,5;2``; raises ValueError.
 
     Words need no quotes; where the formula takes words, what looks like a number is one too (the name of axis
-    1). What is one value, or none, stays as it is written.
+    1).
     """
-    if get_origin(kind) in (None, Union, UnionType, Literal):
-        return None if text.casefold() == "none" else text
 
     def spelled(match: re.Match[str]) -> str:
         word = match[0].strip()
@@ -170,7 +174,8 @@ def _several(kind: Any, text: str) -> Any:
         )
         return word if is_plain else "null" if word.casefold() == "none" else json.dumps(word)
 
-    spelt = _WORD.sub(spelled, text)
+    # Between semicolons a comma is a decimal one.
+    spelt = _WORD.sub(spelled, text.replace(",", ".").replace(";", ",") if ";" in text else text)
     # A list of pairs may be written with its outer brackets or without.
     return json.loads(spelt if spelt.startswith("[[") else f"[{spelt}]")
 

@@ -72,11 +72,11 @@ _TOKEN = re.compile(
     r"""(?P<blank>\s+)
     |(?P<number>(?:[0-9][0-9.,]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
     |(?P<name>(?:"[^"]*"|'[^']*'|\#[A-Za-z$]*[0-9][\w.]*|[^\W\d]\w*(?:\.\w+)*|\$[0-9]+)(?:@\w+(?:\.\w+)?)?)
-    |(?P<sign>[-+*/(),×÷−·])""",
+    |(?P<sign>[-+*/(),;×÷−·])""",
     re.VERBOSE,
 )
 _BEHIND = re.compile(rf"\s*({_UNIT})")
-_OPERATORS = {"×": "*", "·": "*", "÷": "/", "−": "-"}
+_OPERATORS = {"×": "*", "·": "*", "÷": "/", "−": "-", ";": ","}
 _LOOKS_LIKE = re.compile(r"[\d)\"'\w°]\s*[-+*/×÷−·]\s*[\d(\"'#.A-Za-z]|^\s*[-+−]?\s*\(")
 _ONE_VALUE = re.compile(rf"[-+]?[0-9][0-9.,]*(?:[eE][-+]?[0-9]+)?\s*(?:{_UNIT})?")
 """A number with its unit, right or wrong: ``10 mm/min`` is no division."""
@@ -167,6 +167,16 @@ def _figure(number: Fraction) -> str:
     raise InvalidValueError("the result is too small")
 
 
+def _before_comma(piece: str) -> str:
+    """Return what is before a comma between the values that a function takes; raises InvalidValueError for
+    one that a digit follows: ``min(0,5 mm, 2 mm)`` would be 0.
+    """
+    whole, _, behind = piece.partition(",")
+    if behind:
+        raise InvalidValueError(f"'{piece}' can be read two ways: put semicolons between the values")
+    return whole
+
+
 class _Reader:
     """Reads and calculates one expression for one address."""
 
@@ -210,23 +220,29 @@ class _Reader:
 
     def _for_parser(self, text: str) -> str:
         """Return the text with a plain name for each quantity, which is what the parser reads."""
-        pieces, at, depth = [], 0, 0
+        pieces, at = [], 0
+        brackets: list[bool] = []
+        """Of each open bracket: whether it is that of a function that takes several values."""
         while at < len(text):
             token = _TOKEN.match(text, at)
             if token is None:
                 raise InvalidValueError(f"{quoted(text[at])} has no place in an expression")
             kind, piece, at = token.lastgroup, token[0], token.end()
             if kind == "number":
-                if depth and "," in piece:
-                    piece = piece.partition(",")[0]  # in brackets a comma parts what a function takes
+                if any(brackets[-1:]) and "," in piece and ";" not in text:
+                    piece = _before_comma(piece)
                     at = token.start() + len(piece)
                 quantity, at = self._quantity(piece, text, at)
                 pieces.append(self._plain_name(text[token.start() : at], quantity))
             elif kind == "name" and not (piece in _FUNCTIONS and text[at:].lstrip().startswith("(")):
                 pieces.append(self._plain_name(piece, self._referred(piece)))
             else:
-                depth += {"(": 1, ")": -1}.get(piece, 0)
-                pieces.append(_OPERATORS.get(piece, piece))
+                if piece == "(":
+                    brackets.append(bool(pieces) and _FUNCTIONS.get(pieces[-1]) == 0)
+                elif piece == ")":
+                    del brackets[-1:]
+                if kind != "blank":
+                    pieces.append(_OPERATORS.get(piece, piece))
         return " ".join(pieces)
 
     def _plain_name(self, text: str, quantity: _Quantity) -> str:

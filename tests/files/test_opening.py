@@ -112,7 +112,7 @@ def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
         ("family: 9pc", "family: 9pd", 2, "Unknown family '9pd'. Known: 57c422b, 9pc, acromill"),
         ("family: 9pc\n", "", None, "names no control family"),
         ("1.5 mm", "much mm", 6, "home.calibration@1: 'much mm' is not a number"),
-        ("1.5 mm", "1,500 mm", 6, "home.calibration@1: '1,500' can be read two ways: write 1500 or 1.500"),
+        ("1.5 mm", "1,500 mm", 6, "home.calibration@1: '1,500' can be read two ways: write 1500 or 1.5000"),
         ("1.5 mm", "1.5", 6, "home.calibration@1: '1.5' has no unit: write 1.5 mm"),
         ("1.5 mm", "1.5 kg", 6, "home.calibration@1: 'kg' is not a unit; Home Calibration is given in mm"),
         ("1.5 mm", "1.5 mm/min", 6, "home.calibration@1: Home Calibration is given in mm, not in mm/min"),

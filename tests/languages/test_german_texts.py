@@ -140,6 +140,13 @@ def refusals() -> Iterator[str]:
     )
     roots = [ROOT / "amp_studio/transfer" / name for name in packages]
     roots += [*(ROOT / "amp_studio/families").glob("*/emulated")]
+    typed = (
+        "schema/values.py",
+        "schema/bit_fields.py",
+        "validate/cell_expression.py",
+        "validate/expression_tree.py",
+    )
+    roots += [ROOT / "amp_studio" / name for name in typed]
     for path in (each for root in roots for each in (root.rglob("*.py") if root.is_dir() else [root])):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             arguments = (
@@ -147,9 +154,16 @@ def refusals() -> Iterator[str]:
             )
             for text in arguments:
                 if isinstance(text, ast.JoinedStr):
-                    yield "".join(str(p.value) if isinstance(p, ast.Constant) else "7" for p in text.values)
+                    yield "".join(map(_piece, text.values))
                 elif isinstance(text, ast.Constant) and " " in str(text.value):
                     yield str(text.value)
+
+
+def _piece(part: ast.expr) -> str:
+    """Return the words of a text, or a figure, in quotes where it has some, in the place of a name."""
+    if isinstance(part, ast.Constant):
+        return str(part.value)
+    return "'7'" if "quoted(" in ast.unparse(part) else "7"
 
 
 def test_what_a_control_or_its_line_refuses_with_is_german() -> None:
@@ -161,6 +175,7 @@ def test_what_a_control_or_its_line_refuses_with_is_german() -> None:
     )
     of_its_own = re.compile(
         r"PARAMETER|Axis expected|Syntax error|belong|packed|given|neither|too short|7:? 7"
+        r"|^'7' 7$|7; 7|^7, not in|takes 7$|missing7|a name for the items"
     )
     words = language_of("de")
     english = {text for text in refusals() if words.message(text) == text}

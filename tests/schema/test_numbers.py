@@ -51,7 +51,7 @@ def test_a_comma_that_could_be_either_is_refused_with_both_ways(text: str) -> No
 def test_the_two_ways_of_an_ambiguous_number_are_those_a_person_can_write() -> None:
     with pytest.raises(InvalidValueError) as refused:
         read_number("1,234e2")
-    assert str(refused.value) == "'1,234e2' can be read two ways: write 1234e2 or 1.234e2"
+    assert str(refused.value) == "'1,234e2' can be read two ways: write 1234e2 or 1.2340e2"
 
 
 @pytest.mark.parametrize(

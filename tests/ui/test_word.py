@@ -4,10 +4,11 @@ from collections.abc import Callable
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QSpinBox
+from PySide6.QtWidgets import QComboBox
 
 from amp_studio.files.stored_text import storage_text
 from amp_studio.schema import Value
+from amp_studio.ui.forms.number_box import WholeBox
 from amp_studio.ui.main_window import MainWindow
 
 DISPLAYED = ("axes.displayed", "")
@@ -65,7 +66,7 @@ def test_a_clock_rate_is_picked_and_a_count_entered(num: MainWindow) -> None:
 
     count = bits["Number of status bits at the end of the frame"]
     field = num.detail.word.fields[count.bit]
-    assert isinstance(field, QSpinBox)
+    assert isinstance(field, WholeBox)
     field.setValue(3)
     assert num.workspace.file.get(sensor) == Value(raw << clock.bit | 3 << count.bit)
 

@@ -41,6 +41,10 @@ def typed(file: ParameterFile, text: str, address: tuple[str, str] = EXCESS) -> 
         ('="Excess Error"@Z/2', 5.5),
         ("=#1750*2", 22.0),
         ("=min(1, 2)", 1.0),
+        ("=min(3; 0,5)", 0.5),
+        ("=max(0,5 mm; 0,7 mm)", 0.7),
+        ("=abs(0,5)", 0.5),
+        ("=max((0,5 + 1) * 2, 2)", 3.0),
         ("=max(Y, 1 in)", 25.4),
         ("=round(Y/2)", 6.0),
         ("=abs(1-Y)", 10.0),
@@ -54,6 +58,13 @@ def test_an_expression_is_calculated_exactly_in_the_unit_of_the_cell(
     entered = typed(file, text)
     assert entered.value == Value(number, "mm")
     assert entered.expression == text.lstrip("=")
+
+
+@pytest.mark.parametrize("text", ["=min(0,5 mm, 2 mm)", "=max(1,5)", "=min(3, 0,5)", "=max(Y, 2,5*3)"])
+def test_a_comma_between_digits_of_several_values_is_not_guessed(file: ParameterFile, text: str) -> None:
+    """``min(0,5 mm, 2 mm)`` was 0 mm, and ``max(1,5)`` 5 mm."""
+    with pytest.raises(InvalidValueError, match=r"'\d,\d,?' can be read two ways: put semicolons between"):
+        typed(file, text)
 
 
 def test_a_name_is_the_value_in_the_unit_in_which_it_is_shown(file: ParameterFile) -> None:

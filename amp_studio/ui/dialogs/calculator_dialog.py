@@ -8,9 +8,17 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QPushButton, QWidget
 
-from amp_studio.schema import Address
+from amp_studio.schema import Address, quoted
 from amp_studio.ui.base.layout import in_column
-from amp_studio.ui.base.translated import facts_in_words, help_language, sentenced, unit_in_words, worded
+from amp_studio.ui.base.translated import (
+    facts_in_words,
+    help_language,
+    message_in_words,
+    sentenced,
+    tr,
+    unit_in_words,
+    worded,
+)
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.validate import Argument, Calculator, calculate, calculators, shown_result
@@ -86,6 +94,8 @@ class CalculatorDialog(QDialog):
             self.form.set_answer("outcome", self.tr("Still needed: {names}").format(names="; ".join(missing)))
             return
         try:
+            for argument in arguments:
+                _refuse_two_ways(argument, texts[argument.name])
             result = calculate(self._family, self._formula.name, texts)
         except ValueError as error:
             self.form.set_answer("outcome", self._titled(str(error)))
@@ -129,6 +139,16 @@ class CalculatorDialog(QDialog):
     def _use(self) -> None:
         if self._address and self._commit(self._address, self.form.answer("outcome")):
             self.close()
+
+
+def _refuse_two_ways(argument: Argument, text: str) -> None:
+    """Refuse a comma between digits of several values where the language has a decimal one: ``0,5`` would
+    be 0 and 5. Raises ValueError.
+    """
+    has_comma = tr(".", "decimal sign") == "," and ";" not in text and re.search(r"\d,\d", text)
+    if has_comma and argument.is_several:
+        message = f"{quoted(text)} can be read two ways: put semicolons between the values"
+        raise ValueError(message_in_words(message))
 
 
 def _figure(text: str) -> float | None:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHeaderView, QTableWidget
 
 from amp_studio.drawing import Picture, Scene, figure_text, linked, on_divisions, round_divisions
-from amp_studio.schema import read_number
+from amp_studio.schema import read_bare_number, unit_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.translated import unit_in_words, worded
 
@@ -55,7 +55,8 @@ class ChannelScales(QTableWidget):
         return replace(picture, panels=linked(panels or picture.panels[:1]))
 
     def _on_scale(self, row: int, panel: Scene) -> Scene:
-        per, middle = (_number(item_at(self, row, n).text()) for n in (_PER, _MIDDLE))
+        unit = unit_text(self._channel(row)[1])
+        per, middle = (_number(item_at(self, row, n).text(), unit) for n in (_PER, _MIDDLE))
         if not per and not self._is_divided:
             return panel
         drawn = on_divisions(panel, per, middle or 0.0) if per else round_divisions(panel)
@@ -98,9 +99,9 @@ class ChannelScales(QTableWidget):
         return str(item_at(self, row, _NAME).data(role)), str(item_at(self, row, _UNIT).data(role))
 
 
-def _number(text: str) -> float | None:
+def _number(text: str, unit: str) -> float | None:
     """Return the number of a cell; None where there is none."""
     try:
-        return read_number(text.strip())[0] if text.strip() else None
+        return read_bare_number(text, unit) if text.strip() else None
     except ValueError:
         return None

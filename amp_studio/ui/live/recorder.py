@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.drawing import Picture, picture_svg
 from amp_studio.files import ParameterFile, write_atomic
-from amp_studio.schema import read_number
+from amp_studio.schema import read_bare_number
 from amp_studio.sim import LiveRecorder, SignalRecord, SimulationError, Trace, read_recording, write_recording
 from amp_studio.ui.base.ask_path import ask_to_open, ask_to_save
 from amp_studio.ui.base.figures import written
@@ -224,8 +224,7 @@ class LiveRecording(QWidget):
         return False
 
     def _level(self) -> float:
-        text = self.level.text().strip()
-        return read_number(text)[0] if text else 0.0
+        return read_bare_number(self.level.text().strip() or "0")
 
     # -- a record ----------------------------------------------------------------
 
@@ -237,7 +236,7 @@ class LiveRecording(QWidget):
         try:
             self._level()
             # Read before the record begins: a typing error in a field must not cost the move.
-            before = read_number(self.before.text().strip() or "0")[0]
+            before = read_bare_number(self.before.text().strip() or "0", "s")
         except ValueError as error:
             self._problem = sentenced(str(error))
             self._show_footer()

@@ -24,9 +24,9 @@ from amp_studio.pictures import (
     run_way,
     usual_way,
 )
-from amp_studio.schema import InvalidValueError, read_number
-from amp_studio.sim import NEAR_GRID, MotionCheck, SimulationError, Trace, picture_of, simulate
-from amp_studio.ui.base.figures import written
+from amp_studio.schema import InvalidValueError, read_bare_number, read_number
+from amp_studio.sim import NEAR_GRID, MotionCheck, SimulationError, Trace, length_unit, picture_of, simulate
+from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
@@ -322,9 +322,9 @@ class TravelCard(Card):
             return
         try:
             text = _typed_length(self.hard.text())
-            hard = None if text is None else read_number(text)[0]
+            hard = None if text is None else read_bare_number(text, length_unit(self.picture.file))
         except InvalidValueError as error:
-            self.about.setText(str(error))
+            self.about.setText(sentence(str(error)))
             return
         scene = draw_approach(self.picture, self.part, self.way, self.trace, hard)
         grips = {}
@@ -387,9 +387,9 @@ class SpindleCard(Card):
         # S1500 as in a program, or the figure alone.
         if text := self.speed.text().strip().lstrip("Ss"):
             try:
-                speed = read_number(text)[0]
+                speed = read_bare_number(text, "rpm", "1/min")
             except InvalidValueError as error:
-                self.about.setText(str(error))
+                self.about.setText(sentence(str(error)))
                 return
         view = self.views.choice or "spindle"
         settings: dict[str, dict[str, float | str]] = {

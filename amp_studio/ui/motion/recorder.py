@@ -14,7 +14,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from amp_studio.drawing import Picture
-from amp_studio.schema import read_number
+from amp_studio.schema import read_bare_number
 from amp_studio.sim import (
     RECORDED_SIGNALS,
     LiveRecorder,
@@ -108,7 +108,7 @@ class RecorderPage(QWidget):
         if not given["signal"]:
             return None
         before = _seconds(str(given["before"])) or 0.0
-        level, _ = read_number(str(given["level"]).strip() or "0")
+        level = read_bare_number(str(given["level"]).strip() or "0")
         way = str(given["way"])
         return Trigger(str(given["signal"]), way[0] == ">", level, before, way.endswith("="))
 
@@ -318,7 +318,7 @@ def _seconds(text: str) -> float | None:
     """Return a time in s; None for an empty text. Raises ValueError."""
     if not text.strip():
         return None
-    value, rest = read_number(text.strip())
-    if rest.strip() not in ("", "s") or value < 0.0:
+    value = read_bare_number(text, "s")
+    if value < 0.0:
         raise ValueError(worded("A time is a number of seconds, 0 or more"))
     return value

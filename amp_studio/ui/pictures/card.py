@@ -6,7 +6,7 @@ from html import escape
 
 from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFrame, QLabel, QWidget
+from PySide6.QtWidgets import QComboBox, QFrame, QLabel, QWidget
 
 from amp_studio.drawing import Scene, scene_in_words
 from amp_studio.pictures import FASTEST, FilePicture
@@ -16,6 +16,7 @@ from amp_studio.ui.base.translated import language_of_window, sentenced, unit_in
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.icon_button import icon_button
+from amp_studio.ui.forms.number_box import NumberBox
 from amp_studio.ui.forms.segment import Segment
 
 from .canvas import PictureCanvas
@@ -56,7 +57,7 @@ class PictureCard(QFrame):
         self.more_parts = QComboBox()
         self.more_parts.setAccessibleName(self.parts.accessibleName())
         self.more_parts.activated.connect(lambda n: self.show_part(self.more_parts.itemData(n)))
-        self.speed = QDoubleSpinBox()
+        self.speed = NumberBox()
         self.speed.setDecimals(1)
         self.speed.setRange(0.1, FASTEST)
         self.speed.setValue(FASTEST)

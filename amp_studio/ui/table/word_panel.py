@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
     QScrollArea,
-    QSpinBox,
     QWidget,
 )
 
@@ -25,6 +24,7 @@ from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP3, ROW
 from amp_studio.ui.base.translated import label_in_words
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.number_box import WholeBox
 
 _SHORT = 12
 """Labels up to this length are shown in several columns."""
@@ -52,7 +52,7 @@ class WordPanel(QScrollArea):
         self.ticks.setResizeMode(QListView.ResizeMode.Adjust)
         self.ticks.setSpacing(1)
         self.ticks.itemChanged.connect(self._ticked)
-        self.fields: dict[int, QComboBox | QSpinBox] = {}
+        self.fields: dict[int, QComboBox | WholeBox] = {}
         self._form = QFormLayout()
         self._form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
         self._form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
@@ -127,7 +127,7 @@ class WordPanel(QScrollArea):
         self.ticks.addItem(item)
 
     def _add_field(self, bit: Bit) -> None:
-        editor: QComboBox | QSpinBox
+        editor: QComboBox | WholeBox
         if bit.choices:
             editor = QComboBox()
             editor.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -137,11 +137,9 @@ class WordPanel(QScrollArea):
                 editor.addItem(label_in_words(choice.label), choice.raw)
             editor.activated.connect(lambda _, b=bit, e=editor: self._set(b, e.currentData()))
         else:
-            editor = QSpinBox()
+            editor = WholeBox()
             half = 1 << bit.width - 1
             editor.setRange(*((-half, half - 1) if bit.signed else (0, 2 * half - 1)))
-            # Else each digit that is typed would be a step of Undo.
-            editor.setKeyboardTracking(False)
             editor.valueChanged.connect(lambda number, b=bit: self._set(b, number))
         editor.setToolTip(
             self.tr("bits {bit} to {what}").format(bit=bit.bit, what=bit.bit + bit.width - 1)
