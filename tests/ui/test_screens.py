@@ -21,6 +21,8 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QListView,
+    QSplitter,
+    QTabBar,
     QTableView,
     QToolButton,
     QTreeView,
@@ -104,6 +106,7 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "several controls": lambda window: window.control.several(),
     "by hand": lambda window: window.control.show("hand"),
     "exchanges": lambda window: window.control.recorded(),
+    "motion": lambda window: window.menus["view.motion"].trigger(),
     "tuning": lambda window: window.menus["view.tuning"].trigger(),
     "steps of tuning": show_steps_of_tuning,
     "program": lambda window: window.menus["view.program"].trigger(),
@@ -310,6 +313,15 @@ def overlaps(window: QWidget) -> Iterator[tuple[str, str, str]]:
                     yield type(parent).__name__, type(one).__name__, type(other).__name__
 
 
+def scrolling_tabs(window: QWidget) -> Iterator[tuple[str, int]]:
+    """Yield tabs that have less room than they need where the window has it; those of files may be any."""
+    for tabs in window.findChildren(QTabBar):
+        wanted = tabs.sizeHint().width()
+        is_of_files = isinstance(tabs.parent().parent(), QSplitter)
+        if tabs.isVisible() and not is_of_files and tabs.width() < wanted < 0.45 * window.width():
+            yield "tabs", wanted - tabs.width()
+
+
 def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
     language: str, window: MainWindow
 ) -> None:
@@ -324,7 +336,7 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
             if (window.width(), window.height()) != screen:
                 found.append((name, screen, f"needs {window.width()} x {window.height()}"))
             cut = [(type(w).__name__, text) for w, text in texts(window) if is_cut(w)]
-            painted = (*heads(window), *cells(window), *squeezed(window))
+            painted = (*heads(window), *cells(window), *squeezed(window), *scrolling_tabs(window))
             cut += [
                 ("hint", field.placeholderText())
                 for field in window.findChildren(QLineEdit)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, QUrl
-from PySide6.QtGui import QShowEvent, QStandardItemModel
+from PySide6.QtGui import QResizeEvent, QShowEvent, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QSplitter, QTabWidget, QWidget
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
@@ -35,6 +35,8 @@ from .settings import SettingsForm, scrolled
 
 _MIN_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
+_MAX_SIDE = 0.45
+"""Share of the page that the form and its tabs may have without the user."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
 
 
@@ -148,13 +150,21 @@ class MotionView(PageOfFile):
         in_column(form, below, self.settings, (self.tabs, 1), on=side, margins=(GAP3, 0, GAP2, 0))
         left = QWidget()
         in_column(tools, (self.plot, 1), on=left, margins=0)
-        middle = QSplitter()
-        middle.addWidget(left)
-        middle.addWidget(scrolled(side))
-        middle.setStretchFactor(0, 1)
-        middle.setSizes([790, 430])
-        in_column(self.summary, (middle, 1), on=self, margins=(GAP3, GAP2, GAP2, GAP2))
+        self.middle = QSplitter()
+        self.middle.addWidget(left)
+        self.middle.addWidget(scrolled(side))
+        self.middle.setStretchFactor(0, 1)
+        self.middle.setSizes([790, 430])
+        in_column(self.summary, (self.middle, 1), on=self, margins=(GAP3, GAP2, GAP2, GAP2))
         self.setFocusProxy(self.scenario)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show the tabs whole where the picture keeps the greater part."""
+        super().resizeEvent(event)
+        picture, side = self.middle.sizes()
+        wanted = side - self.tabs.width() + self.tabs.tabBar().sizeHint().width()
+        if side < wanted <= _MAX_SIDE * (picture + side):
+            self.middle.setSizes([picture + side - wanted, wanted])
 
     def _connect(self) -> None:
         self.scenario.currentIndexChanged.connect(self._choose)

@@ -9,6 +9,7 @@ from PySide6.QtGui import QFontMetrics, QMouseEvent, QPainter, QPaintEvent, QRes
 from PySide6.QtWidgets import QHeaderView, QLabel, QTableView, QWidget
 
 from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, SMALL_ICON, colour, font, paint_icon
+from amp_studio.ui.forms.telling_cut import telling_cut
 
 from .parameter_table import ParameterTable
 
@@ -35,6 +36,8 @@ class RowHeads(QHeaderView):
         }
         # Eliding measures a text several times: once for each text and width, not in every frame.
         self._elided: dict[tuple[str, str, int], str] = {}
+        self._names: frozenset[str] = frozenset()
+        """Of the parameters in the table; one is not cut to look like another."""
         self.number_width = 0
         """Width of the column of numbers; 0 where no row has one."""
         self._pointed = -1
@@ -48,12 +51,17 @@ class RowHeads(QHeaderView):
         self.setAccessibleName(self.tr("Parameters"))
         self.setMouseTracking(True)
         table.dataChanged.connect(self._follow)
+        table.modelReset.connect(self._forget)
 
     def _follow(self, first: QModelIndex, last: QModelIndex) -> None:
         """Paint the heads of rows with other values again: a head has the unit of its values."""
         top = self.sectionViewportPosition(first.row())
         end = self.sectionViewportPosition(last.row()) + self.sectionSize(last.row())
         self.viewport().update(0, top, self.viewport().width(), end - top)
+
+    def _forget(self) -> None:
+        self._elided.clear()
+        self._names = frozenset()
 
     def sizeHint(self) -> QSize:
         """Return the width that the view has set: Qt would measure a thousand heads after each change."""
@@ -139,7 +147,10 @@ class RowHeads(QHeaderView):
         if elided is None:
             if len(self._elided) > _MAX_REMEMBERED:
                 self._elided.clear()
-            elided = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, place.width())
+            names = self._names = self._names or frozenset(
+                map(self._table.row_name, range(len(self._table.rows)))
+            )
+            elided = telling_cut(metrics, text, names, place.width())
             self._elided[key] = elided
         painter.drawText(place, _LEFT, elided)
 
