@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of, open_file
@@ -57,6 +58,17 @@ def test_the_entries_are_in_a_safe_order_and_what_is_not_on_it_has_a_page(sheet:
     assert "E-Stop" in sheet.around.toPlainText()
     sheet.list.setCurrentItem(sheet.items()[0])
     assert "page 7-20" in sheet.details.text()
+
+
+def test_a_row_is_read_whole_with_the_letter_of_its_axis_and_has_room_for_its_tick(sheet: HandSheet) -> None:
+    assert [item.text(5) for item in sheet.items()] == [
+        "Excess Error, X axis",
+        "Feedrate Suppression Point, X axis",
+    ]
+    sheet.items()[0].setText(5, "Rapid Feedrate for Positioning, X axis = " + 9 * "10 000 mm/min ")
+    QApplication.processEvents()
+    assert sheet.list.sizeHintForColumn(5) <= sheet.list.columnWidth(5)
+    assert all(sheet.list.visualItemRect(item).height() >= 22 for item in sheet.items())
 
 
 def test_a_tick_is_beside_the_file_at_once_and_there_when_the_sheet_is_opened_again(

@@ -1,7 +1,7 @@
 """The style sheet over Fusion and the palette: flat buttons and fields, tabs, segments, chips, bars.
 
 The views of the window have no rule here: their delegates paint, which is quicker.
-Lists in dialogs have one, of their height.
+Lists have one, of their height.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ QHeaderView::section { background: $panel; color: $dim; border: 0; border-right:
 QHeaderView::section:vertical { padding: 0 4px; }
 QTableView, QTreeView, QListView, QTextBrowser { border: 0; gridline-color: $grid; }
 QDialog QTableView, QDialog QTreeView, QDialog QListView, QDialog QTextBrowser { border: 1px solid $line; }
-QDialog QTreeWidget::item, QDialog QListWidget::item { min-height: 22px; }
+QTreeWidget::item, QDialog QListWidget::item { min-height: 22px; }
 QListWidget::item:selected, QTreeWidget::item:selected, QTableWidget::item:selected { background: $selbg;
     color: $text; }
 QListWidget::item:selected:!active, QTreeWidget::item:selected:!active, QTableWidget::item:selected:!active {

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QBrush, QFont
 from PySide6.QtWidgets import (
+    QHeaderView,
     QLabel,
     QPushButton,
     QStyledItemDelegate,
@@ -23,6 +24,7 @@ from PySide6.QtWidgets import (
 from amp_studio.sheet import Instruction, ReadBackState, Sheet, SheetEntry, SheetError, Ticks, judged
 from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.layout import in_column
+from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, scheme, severity_icon
 from amp_studio.ui.base.translated import message_in_words, tr
@@ -216,7 +218,7 @@ class HandSheet(QWidget):
                 entry.new,
                 entry.unit,
                 entry.old or "?",
-                entry.name + (f" = {entry.meaning}" if entry.meaning else ""),
+                self._name(entry) + (f" = {entry.meaning}" if entry.meaning else ""),
                 self.ticks.screen_text.get(entry.number, ""),
                 "",
             ]
@@ -231,6 +233,13 @@ class HandSheet(QWidget):
             item.setIcon(_NAME, severity_icon("warning"))
         self._judge(item)
         return item
+
+    def _name(self, entry: SheetEntry) -> str:
+        """Return the name of a parameter with the letter of its axis: ``Excess Error, X axis``."""
+        assert self._workspace is not None
+        name = entry.name.removesuffix(entry.place).rstrip()
+        place = place_in_words(self._workspace.file, entry.address) if entry.place else ""
+        return f"{name}, {place}" if place else name
 
     def _judge_all(self) -> None:
         """Show every result in the colours of the theme."""
@@ -358,6 +367,7 @@ def _list() -> QTreeWidget:
     found.setAllColumnsShowFocus(True)
     for column, width in enumerate(_WIDTHS):
         found.setColumnWidth(column, width)
+    found.header().setSectionResizeMode(_NAME, QHeaderView.ResizeMode.ResizeToContents)
     return found
 
 
