@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         NoConnectionError,
         NotInEmergencyStopError,
         ProtocolMismatchError,
+        Remains,
         TransferError,
         WrongFamilyError,
     )

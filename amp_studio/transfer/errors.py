@@ -44,15 +44,28 @@ class Confirmed:
         return f"{text}, {visible(self.unanswered)} was not answered" if self.unanswered else text
 
 
+@dataclass(frozen=True)
+class Remains:
+    """What a control contains after a break: ``least`` has what of the new is certain, ``most`` what may be
+    there too. Both are what was read, or what its answers prove.
+    """
+
+    least: bytes
+    most: bytes
+    is_read: bool
+
+
 class TransferError(AmpStudioError, OSError):
     """An exchange that did not reach its end.
 
     ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it
     contained before was kept, if it was; ``new`` the numbers of the parameters that are new already, where
-    some are; ``confirmed`` how far a download of single values came.
+    some are; ``confirmed`` how far a download of single values came; ``remains`` what the control contains
+    then, where single values were sent.
     """
 
     confirmed: Confirmed | None = None
+    remains: Remains | None = None
 
     def __init__(
         self, what: str, at_control: AtControl = "old", kept: str | None = None, new: tuple[str, ...] = ()

@@ -5,13 +5,13 @@ and read back after a break.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import ClassVar, Self
 
 from .break_state import state_after_break
 from .driver import Abilities, ControlIdentity, Receipt
-from .errors import CancelledError, ImageRejectedError, TransferError, WrongFamilyError, unforeseen
+from .errors import CancelledError, ImageRejectedError, Remains, TransferError, WrongFamilyError, unforeseen
 from .exchange import QUIET, Exchange, Replacement
 from .image import ImageError
 from .links import Endpoint, SerialSettings, connect
@@ -80,6 +80,7 @@ class LineDriver(ABC):
             else:
                 error.at_control, error.new = sent.answered_state()
                 error.confirmed = sent.confirmed if sent.has_begun else None
+                error.remains = self._by_answers(sent, replacement)
             if sent.when_stopped:
                 error.what += f"; {sent.when_stopped}"
             raise
@@ -116,20 +117,39 @@ class LineDriver(ABC):
     def _names(self, content: bytes) -> Mapping[str, str]:
         """Return what can be written of a content: name -> text; raises ImageError."""
 
-    def _names_now(self, replacement: Replacement) -> Mapping[str, str]:  # noqa: ARG002  # other controls show a value otherwise
-        """Return what the control contains after a break, as ``_names``; raises TransferError, ImageError."""
-        return self._names(self._fetched("verify"))
+    def _names_now(self, found: bytes, replacement: Replacement) -> Mapping[str, str]:  # noqa: ARG002  # other controls show a value otherwise
+        """Return what the control was read to contain after a break, as ``_names``; raises ImageError."""
+        return self._names(found)
+
+    def _fetched_after_break(self) -> bytes:
+        """Return all that the control contains after a break; raises TransferError."""
+        return self._fetched("verify")
+
+    def _with_new(self, replacement: Replacement, names: Collection[str]) -> bytes:  # noqa: ARG002  # others send single values
+        """Return what the control contains where it has taken these values; empty where no value is sent
+        alone.
+        """
+        return b""
+
+    def _by_answers(self, sent: SentValues, replacement: Replacement) -> Remains | None:
+        """Return what the control contains by its answers; None where it answers for no value alone."""
+        least = self._with_new(replacement, sent.names)
+        most = self._with_new(replacement, [*sent.names, *sent.under_way])
+        return Remains(least, most, is_read=False) if least else None
 
     def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:
         """Read the control and write into the error what it contains: "unknown" where it does not answer."""
         error.confirmed = sent.confirmed
         if error.confirmed and isinstance(error, ImageRejectedError):  # it has been answered
             error.confirmed = replace(error.confirmed, unanswered="")
+        error.remains = self._by_answers(sent, replacement)
         try:
+            found = self._fetched_after_break()
             error.at_control, error.new = state_after_break(
                 self._names(replacement.current),
                 self._names(replacement.content),
-                self._names_now(replacement),
+                self._names_now(found, replacement),
             )
+            error.remains = Remains(found, found, is_read=True)
         except (TransferError, ImageError):
             error.at_control = "unknown"

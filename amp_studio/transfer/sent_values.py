@@ -17,14 +17,15 @@ class SentValues:
         self.when_stopped = ""
         self.names: list[str] = []
         """Those that the control has confirmed, in their order."""
-        self._under_way: list[str] = []
+        self.under_way: list[str] = []
+        """Those of which it is not known whether the control has them."""
 
     def begin(self, name: str) -> None:
         """Take notice of a value that is about to be sent, maybe once more:
         until it is answered it may be there or not.
         """
-        if name not in self._under_way:
-            self._under_way.append(name)
+        if name not in self.under_way:
+            self.under_way.append(name)
 
     def confirm(self, name: str) -> None:
         """Take notice that the control has it."""
@@ -34,18 +35,18 @@ class SentValues:
 
     def refuse(self, name: str) -> None:
         """Take notice that the control has answered, and not taken it."""
-        if name in self._under_way:
-            self._under_way.remove(name)
+        if name in self.under_way:
+            self.under_way.remove(name)
 
     @property
     def unanswered(self) -> str:
         """The first value of which it is not known whether the control has it; "" for none."""
-        return self._under_way[0] if self._under_way else ""
+        return self.under_way[0] if self.under_way else ""
 
     @property
     def has_begun(self) -> bool:
         """Whether anything was sent that the control may have taken."""
-        return bool(self._under_way or self.names)
+        return bool(self.under_way or self.names)
 
     @property
     def confirmed(self) -> Confirmed | None:

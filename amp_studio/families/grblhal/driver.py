@@ -5,7 +5,8 @@ and are read back.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from dataclasses import replace
 from typing import ClassVar
 
 from amp_studio.transfer import (
@@ -19,6 +20,7 @@ from amp_studio.transfer import (
     OpenLink,
     ProtocolMismatchError,
     Receipt,
+    Remains,
     Replacement,
     SentValues,
     TransferError,
@@ -137,13 +139,25 @@ class GrblDriver(GrblContentKind, LineDriver):
                 self._check_memory(line)
         except GrblRefusalError as refusal:
             error = TransferError(refusal_text(refusal, writing.names, present))
-            self._find_out(error, writing, is_answered=True)
+            self._find_out(error, replacement, is_answered=True)
             raise error from None
         return writing.receipt()
 
-    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:  # noqa: ARG002  # Writing has them
-        assert self._writing is not None
-        self._find_out(error, self._writing)
+    def _with_new(self, replacement: Replacement, names: Collection[str]) -> bytes:
+        present, wanted = read_content(replacement.current), read_content(replacement.content)
+        settings = {n: text for n, text in wanted.settings.items() if f"${n}" in names}
+        offsets = {name: text for name, text in wanted.offsets.items() if name in names}
+        startup = {n: text for n, text in wanted.startup.items() if f"$N{n}" in names}
+        new = replace(
+            present,
+            settings={**present.settings, **settings},
+            offsets={**present.offsets, **offsets},
+            startup={**present.startup, **startup},
+        )
+        return write_content(new)
+
+    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:  # noqa: ARG002  # Writing has it
+        self._find_out(error, replacement)
 
     # -- inside --------------------------------------------------------------------------------------
 
@@ -194,11 +208,12 @@ class GrblDriver(GrblContentKind, LineDriver):
         if failed:
             raise TransferError(f"the control cannot write its memory ({failed})", "unknown")
 
-    def _find_out(self, error: TransferError, writing: Writing, *, is_answered: bool = False) -> None:
+    def _find_out(self, error: TransferError, replacement: Replacement, *, is_answered: bool = False) -> None:
         """Read everything again after a break, while the control may answer,
         and write into the error what is true now.
         """
-        end = self._waiting.now() + RECONNECT
+        writing, end = self._writing, self._waiting.now() + RECONNECT
+        assert writing is not None
         found: GrblContent | None = None
         # Nothing was sent: the control still contains what was read before.
         has_begun = writing.sent.has_begun
@@ -209,5 +224,9 @@ class GrblDriver(GrblContentKind, LineDriver):
             if found is None:
                 self._waiting.sleep(PAUSE)
         lost = self._has_lost_memory or (self._line is not None and self._line.has_lost_memory)
+        error.remains = self._by_answers(writing.sent, replacement)
+        # What it shows is not what its memory contains where that could not be written.
+        if found is not None and error.at_control != "unknown":
+            error.remains = Remains(content := write_content(found), content, is_read=True)
         after_break(error, writing, found, has_lost_memory=lost, is_answered=is_answered)
         error.confirmed = writing.sent.confirmed

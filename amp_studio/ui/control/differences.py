@@ -5,7 +5,6 @@ it.
 from __future__ import annotations
 
 import html
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -22,7 +21,7 @@ from amp_studio.ui.base.theme import GAP2, GAP3, ROW, SMALL_ICON, colour, font, 
 from amp_studio.ui.base.translated import facts_in_words, worded
 
 from .session import BackupReturn, ControlSession
-from .session_words import ends_of
+from .value_ends import ValueEnd, ends_of
 
 NUMBER, NAME, AXIS, CONTROL, FILE, REMARK = range(6)
 _NAME, _MIN_NAME, _SIDE, _MIN_SIDE = 260, 130, 150, 96
@@ -376,16 +375,13 @@ class DifferenceTable(QTreeWidget):
         """
         return [row for row in self.rows_taking(file=False) if not row.is_fixed]
 
-    def show_ends(self, session: ControlSession) -> str:
-        """Show beside each value that was sent whether the control has it, if that is known of each.
-        Returns how many there are of each kind.
-        """
-        items = [self._items[row.difference.address] for row in self.rows_taking(file=True)]
-        ends = ends_of(session, [item.text(NUMBER) for item in items])
-        for item in items if ends else ():
-            item.setText(REMARK, ends[item.text(NUMBER)])
-            item.setIcon(REMARK, QIcon())
-        return ", ".join(f"{count} {end}" for end, count in sorted(Counter(ends.values()).items()))
+    def show_ends(self, session: ControlSession) -> list[ValueEnd]:
+        """Show beside each value that was sent what the control has of it, as far as that is known."""
+        ends = ends_of(session, [row.difference for row in self.rows_taking(file=True)])
+        for address, end in ends.items():
+            self._items[address].setText(REMARK, end.text)
+            self._items[address].setIcon(REMARK, QIcon())
+        return list(ends.values())
 
     def dangerous_changes(self) -> frozenset[object]:
         """Return the changes that would be sent and can be dangerous, with both values."""

@@ -22,6 +22,7 @@ from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, pri
 from .page_parts import ControlPageParts
 from .session import ControlSession, SentChanges
 from .session_words import ControlBackup, text_of_cancel, text_of_content, text_of_proof, text_of_reading
+from .value_ends import counts_in_words
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import ImageComparison
@@ -326,7 +327,9 @@ class ControlPage(ControlPageParts):
         session, text = self.session, ", ".join(parts)
         if session is not None and session.seen is not None and session.phase == "away":
             text = f"{text_of_reading(session.seen.when)}: {text}"  # it may contain something else by now
-        self.counts.setText(text if is_read else self.table.show_ends(session) if session is not None else "")
+        ends = self.table.show_ends(session) if session is not None and not is_read else []
+        self.ends.show_ends(ends)
+        self.counts.setText(text if is_read else counts_in_words(ends))
         self.filter.setVisible(bool(self.table.rows) and is_read)
 
     def _show_middle(self, summary: str) -> None:

@@ -42,6 +42,7 @@ from .rows import FOOT, side_by_side
 from .session import ControlSession
 from .several import SeveralControls
 from .steps import ExchangeSteps
+from .value_ends import EndBar
 
 WIDE = 1200
 """Width in logical pixels of a window with room for the steps beside the table."""
@@ -71,6 +72,7 @@ class ControlPageParts(QWidget):
         )
         self.conditions = ConditionLine()
         self.bar = MessageBar()
+        self.ends = EndBar()
         self.password = QLineEdit()
         self.password.setEchoMode(QLineEdit.EchoMode.Password)
         self.password.setPlaceholderText(tr("Password of the control; Enter tries it"))
@@ -121,6 +123,7 @@ class ControlPageParts(QWidget):
         self.one_control = _column(
             self.conditions,
             self.bar,
+            self.ends,
             self.password,
             side_by_side(HEAD, self.counts, None, self.filter),
             parts,

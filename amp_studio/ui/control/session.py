@@ -7,7 +7,7 @@ Nothing waits here: each act runs in a thread, and ``changed`` is emitted when t
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from PySide6.QtCore import QObject, Signal
 
 from amp_studio.files import ParameterFile, by_schema
-from amp_studio.schema import Address
+from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task, TaskProgress
 
 if TYPE_CHECKING:
@@ -60,6 +60,22 @@ class SentChanges:
     kept: tuple[str, ...] = ()
     is_one: bool = False
     """Whether it is a value alone, which leaves the others as they were."""
+    file: ParameterFile | None = None
+    """All that the control was to contain, where it can be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class AfterBreak:
+    """What a control contains after an exchange that broke off: what differs from what was sent, with the
+    value that the control has, where it has as little (``least``) and as much (``most``) of it as it may.
+    """
+
+    least: Mapping[Address, Value | None]
+    most: Mapping[Address, Value | None]
+    is_read: bool
+    """Whether it was read since; else it is what the control has answered."""
+    is_certain: bool
+    """Whether what it has answered is what it contains."""
 
 
 class ControlSession(QObject):
@@ -107,6 +123,8 @@ class ControlSession(QObject):
         self._task: Task | None = None
         self._compared: tuple[object, ImageComparison] | None = None
         """The last comparison, after all that it was made of."""
+        self._after_break: tuple[object, AfterBreak | None] | None = None
+        """What the last exchange has left, after what that was made of."""
 
     @property
     def is_busy(self) -> bool:
@@ -251,6 +269,33 @@ class ControlSession(QObject):
             self._compared = state, verify_content(file, self.seen.content)
         return self._compared[1]
 
+    def after_break(self) -> AfterBreak | None:
+        """Return what the control contains of the last exchange, where that broke off and left some of it."""
+        failure, outcome = self.failure, self.outcome
+        if self.phase != "failed" or (failure is not None and failure.at_control in ("", "old", "new")):
+            return None
+        source = failure or outcome
+        if self._after_break is None or self._after_break[0] is not source:
+            self._after_break = source, self._found_after_break()
+        return self._after_break[1]
+
+    def _found_after_break(self) -> AfterBreak | None:
+        from amp_studio.transfer import Remains
+        from amp_studio.transfer.client import verify_content
+
+        failure, outcome, file = self.failure, self.outcome, self.sent.file
+        remains = failure.remains if failure is not None else None
+        if outcome is not None and outcome.content:
+            remains = Remains(outcome.content, outcome.content, is_read=True)
+        if remains is None or file is None:
+            return None
+        found = verify_content(file, remains.least), verify_content(file, remains.most)
+        if any(each.unreadable for each in found):
+            return None
+        least, most = ({d.address: d.b for d in each.values.differences} for each in found)
+        is_certain = remains.is_read or (failure is not None and failure.at_control == "mixed")
+        return AfterBreak(least, most, remains.is_read, is_certain)
+
     # -- writing -----------------------------------------------------------------
 
     def send(self, file: ParameterFile, path: Path, sent: SentChanges) -> None:
@@ -267,7 +312,7 @@ class ControlSession(QObject):
             expected = sha256(seen.content)
             return download_file(file, self.address, exchange, expected=expected, known=seen.content)
 
-        self._write("download", work, path, sent)
+        self._write("download", work, path, replace(sent, file=file))
 
     def backup_return(self) -> BackupReturn | None:
         """Return what a backup would replace; None before the control was read."""
@@ -285,7 +330,7 @@ class ControlSession(QObject):
 
             return restore_copy(copy, self.address, exchange, expected=sha256(seen.content))
 
-        self._write("restore", work, path, sent, backup_name=path.name)
+        self._write("restore", work, path, replace(sent, file=copy.file), backup_name=path.name)
 
     def write_one(self, address: Address, file: ParameterFile, path: Path, line: str = "") -> None:
         """Write one value of a file into the control now; it is read back and recorded."""

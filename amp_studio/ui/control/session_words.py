@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -121,17 +121,6 @@ def _details(failure: TransferError | None, state: str) -> Iterator[str]:
         yield tr("New, as far as is known: {names}.").format(names=", ".join(map(visible, failure.new)))
     if failure.kept:
         yield tr("What it contained before is kept in {kept}.").format(kept=failure.kept)
-
-
-def ends_of(session: ControlSession, numbers: Iterable[str]) -> dict[str, str]:
-    """Return of each value that was sent, by its number, whether the control has it after an exchange that
-    broke off; empty if that is the same for all, or where the control names its values otherwise.
-    """
-    failure, sent = session.failure, set(numbers)
-    if session.phase != "failed" or failure is None or not failure.new or not sent.issuperset(failure.new):
-        return {}
-    rest = {"mixed": tr("old"), "unknown": tr("not known")}.get(failure.at_control)
-    return {each: tr("new") if each in failure.new else rest for each in sent} if rest else {}
 
 
 def text_of_one(session: ControlSession) -> str:

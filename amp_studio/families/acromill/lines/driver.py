@@ -7,7 +7,7 @@ Pages 91 and 113 to 135 of the AcroMill user's guide; docs/protocols/acr-termina
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 from typing import ClassVar
 
@@ -151,9 +151,15 @@ class TerminalDriver(AcrContent, LineDriver):
     def _names(self, content: bytes) -> dict[str, str]:
         return {name: ", ".join(figures) for name, figures in CardContent.read(content).names().items()}
 
-    def _names_now(self, replacement: Replacement) -> dict[str, str]:
+    def _with_new(self, replacement: Replacement, names: Collection[str]) -> bytes:
+        card, wanted = CardContent.read(replacement.current), CardContent.read(replacement.content)
+        card.figures.update({name: wanted.figures[name] for name in names if name in wanted.figures})
+        card.ballscrew.update({name: wanted.ballscrew[name] for name in names if name in wanted.ballscrew})
+        return card.written()
+
+    def _names_now(self, found: bytes, replacement: Replacement) -> dict[str, str]:
         """Return what the card shows, each figure as the content spells it that shows the same."""
-        now = CardContent.read(self._fetched("verify")).names()
+        now = CardContent.read(found).names()
         for content in (replacement.current, replacement.content):
             known = CardContent.read(content).names()
             now.update(
@@ -164,6 +170,7 @@ class TerminalDriver(AcrContent, LineDriver):
     def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:
         if isinstance(error, ConnectionCutError):  # it was called long enough
             error.at_control, error.confirmed = "unknown", sent.confirmed
+            error.remains = self._by_answers(sent, replacement)
         else:
             super()._after_break(error, sent, replacement)
         # What the card contains now is half of it: a refusal of ESAVE has the other half in its own words.

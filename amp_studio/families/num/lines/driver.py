@@ -149,8 +149,8 @@ class PeripheralDriver(NumTableContent, LineDriver):
         self._waiting.ask(f"{error.what}. End the load at the control")
         super()._after_break(error, sent, replacement)
 
-    def _names_now(self, replacement: Replacement) -> dict[str, str]:  # noqa: ARG002  # the base class has it
-        return words_of_table(self._unloaded("verify", RECOVERY_WAIT))
+    def _fetched_after_break(self) -> bytes:
+        return self._unloaded("verify", RECOVERY_WAIT)
 
     # -- unload -----------------------------------------------------------------------------------
 

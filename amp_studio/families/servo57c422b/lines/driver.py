@@ -7,7 +7,7 @@ Instruction manual, pages 4-1 to 4-37; docs/protocols/registers.md.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import ClassVar
 
 from amp_studio.schema import load_schema
@@ -109,6 +109,11 @@ class RegisterDriver(RegisterContent, LineDriver):
 
     def _names(self, content: bytes) -> dict[str, str]:
         return {f"R{register}": str(word) for register, word in words_of_content(content).items()}
+
+    def _with_new(self, replacement: Replacement, names: Collection[str]) -> bytes:
+        wanted = words_of_content(replacement.content).items()
+        new = {register: word for register, word in wanted if f"R{register}" in names}
+        return written_content(words_of_content(replacement.current) | new)
 
     def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
         """Write the registers that differ, read each back, and have the module take its setups over.
