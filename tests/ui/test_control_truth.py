@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
-from amp_studio.transfer.errors import AtControl, Confirmed, TransferError
+from amp_studio.transfer.errors import Confirmed, TransferError
 from amp_studio.transfer.links import enter_password, parse_endpoint
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.control.differences import REMARK
@@ -374,28 +374,6 @@ def test_how_an_exchange_ends_is_german_in_a_german_window(text: str, words: str
     assert message_in_words(text) == words
 
 
-@pytest.mark.parametrize(("state", "rest"), [("mixed", "old"), ("unknown", "not known")])
-def test_after_a_break_each_value_shows_whether_the_control_has_it(
-    window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot, state: AtControl, rest: str
-) -> None:
-    control = start_control(file=nearly(window))
-    page = at_control(window, control.address, "send", qtbot)
-    page.checked.setChecked(True)
-
-    def breaks(*_: object, **__: object) -> None:
-        raise TransferError("the line broke", state, "a.img", ("1750",))
-
-    monkeypatch.setattr(parameters, "download_file", breaks)
-    page.press()
-    settled(window, qtbot)
-    remarks = [page.table._items[EXCESS[0], axis].text(REMARK) for axis in "123"]
-    assert remarks == ["new", rest, rest]
-    assert page.counts.text() in (f"1 new, 2 {rest}", f"2 {rest}, 1 new")
-    page.press()
-    settled(window, qtbot)
-    assert page.table._items[EXCESS].text(REMARK) == "later stop when it fails"
-
-
 def test_a_control_that_two_files_have_is_listed_in_the_state_that_the_page_shows(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
@@ -404,3 +382,13 @@ def test_a_control_that_two_files_have_is_listed_in_the_state_that_the_page_show
     window.control._session_of(control.address, None).error = "no connection to the control"
     at_control(window, control.address, "compare", qtbot)
     assert window.control._listed(control.address).state == "ready"
+
+
+def test_a_control_of_another_family_than_the_file_is_listed_with_the_name_of_its_family(
+    window: MainWindow,
+) -> None:
+    """It was listed with the id of its family: "57c422b"."""
+    for family, address in (("57c422b", "tcp://10.0.0.1:9600"), ("of a plugin", "tcp://10.0.0.2:9600")):
+        window.control.exchanges.remember_contact(address, "connect", reached=True, family=family)
+    listed = [window.control._listed(f"tcp://10.0.0.{n}:9600").family for n in (1, 2)]
+    assert listed == ["57C422B", "of a plugin"]

@@ -17,6 +17,7 @@ from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
 from amp_studio.ui.base.modal import is_alive
+from amp_studio.ui.base.places import family_name
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import icon
@@ -323,16 +324,11 @@ class ControlDesk(Translated):
         family = (
             self.tr("emulated")
             if address == self.emulated.address
-            else self._family(known.family)
-            if known
+            else family_name(known.family)
+            if known and known.family
             else ""
         )
         return ListedControl(address, self._own_name_of(address), family, state, warns)
-
-    def _family(self, key: str) -> str:
-        """Return the short name of a family where the file in front is of it, else its key."""
-        own = self.window.workspace.file.schema.family if self.window.workspace is not None else None
-        return own.short or own.name if own is not None and own.family == key else key
 
     def _list(self) -> None:
         chosen = (

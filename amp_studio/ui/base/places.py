@@ -1,4 +1,4 @@
-"""Axes by their letters, as a person at the machine calls them."""
+"""Axes by their letters and families by their short names, as a person at the machine calls them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 
 from amp_studio.files import ParameterFile, axis_letter, axis_letters
 from amp_studio.report import place_of
-from amp_studio.schema import Address
+from amp_studio.schema import Address, UnknownFamilyError, load_schema
 from amp_studio.validate import Finding
 
 from .figures import finding_in_words
@@ -14,6 +14,15 @@ from .translated import sentenced, tr, worded
 
 _AXIS = re.compile(r"\b([Aa]xis|Achse) (\d+)(?![\w.])")
 """An axis by its number in a sentence."""
+
+
+def family_name(key: str) -> str:
+    """Return the short name of a family; an unknown key as it is."""
+    try:
+        found = load_schema(key).family
+    except UnknownFamilyError:
+        return key
+    return found.short or found.name
 
 
 def place_in_words(file: ParameterFile, address: Address) -> str:

@@ -23,7 +23,6 @@ from amp_studio.files import (
     same_file,
     write_atomic,
 )
-from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background, run_with_progress
@@ -67,14 +66,6 @@ class ProjectFiles(QObject):
         with contextlib.suppress(ParameterFileError):
             return Project.open(folder)
         return None
-
-    def family_name(self, family: str) -> str:
-        """Return the short name of a family."""
-        try:
-            found = load_schema(family).family
-        except UnknownFamilyError:
-            return family
-        return found.short or found.name
 
     def recent_projects(self) -> list[Path]:
         """Return the folders of the projects that were open, the latest first."""

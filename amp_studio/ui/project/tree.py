@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QMenu, QPushButton, QTreeWidgetItem, QWidget
 from amp_studio.guide import FileSummary
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
+from amp_studio.ui.base.places import family_name
 from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP, GAP2
@@ -134,7 +135,7 @@ class ProjectTree(QWidget):
         )
         top.setToolTip(0, str(self.folder))
         if project:
-            top.setData(0, RIGHT, self._files.family_name(project.info.family))
+            top.setData(0, RIGHT, family_name(project.info.family))
         for file in content.files:
             self._add_file(top, file)
         if content.rules:
