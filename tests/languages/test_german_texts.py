@@ -139,7 +139,11 @@ def refusals() -> Iterator[str]:
         "emulated/responder.py",
     )
     roots = [ROOT / "amp_studio/transfer" / name for name in packages]
-    roots += [*(ROOT / "amp_studio/families").glob("*/emulated")]
+    families = ROOT / "amp_studio/families"
+    roots += [*families.glob("*/emulated"), *families.glob("*/lines"), families / "linuxcnc/control"]
+    roots += [
+        families / "grblhal" / f"{name}.py" for name in ("content", "driver", "kind", "line", "reading")
+    ]
     typed = (
         "schema/values.py",
         "schema/bit_fields.py",
@@ -175,7 +179,7 @@ def test_what_a_control_or_its_line_refuses_with_is_german() -> None:
     )
     of_its_own = re.compile(
         r"PARAMETER|Axis expected|Syntax error|belong|packed|given|neither|too short|7:? 7"
-        r"|^'7' 7$|7; 7|^7, not in|takes 7$|missing7|a name for the items"
+        r"|^'7' 7$|7; 7|^7, not in|takes 7$|missing7|a name for the items|^the (file|copy)$"
     )
     words = language_of("de")
     english = {text for text in refusals() if words.message(text) == text}

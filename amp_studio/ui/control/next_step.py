@@ -159,8 +159,10 @@ def why_not_written(state: PageState, session: ControlSession) -> str:
 def bar_message(state: PageState) -> BarMessage | None:
     """Return what is missing or how the exchange ended; None where there is nothing to state."""
     session = state.session
-    if session is None or session.is_busy:
+    if session is None:
         return None
+    if session.is_busy:
+        return BarMessage(message_in_words(session.prompt), "advice") if session.prompt else None
     if session.lacks_password:
         return BarMessage(_about_password(session), "warning")
     if session.phase == "away" and session.error:

@@ -27,7 +27,6 @@ from .value_ends import counts_in_words
 if TYPE_CHECKING:
     from amp_studio.transfer.client import ImageComparison
 
-
 DIRECTIONS: dict[str, ExchangeDirection] = {"send": "send", "read": "read", "hand": "hand"}
 """What the directions are called at the switch; any other name is comparing."""
 ASK_MS = 2000
@@ -259,6 +258,7 @@ class ControlPage(ControlPageParts):
     def _follow_progress(self, stage: str, done: int, total: int) -> None:
         self.show_progress(stage, done, total)
         self.cancel.setText(text_of_cancel(self.session))  # what it leaves is another thing after the commit
+        self._show_bar(self._state())  # what is to be done at the control
 
     def _ask_again(self) -> None:
         if self.session is not None:

@@ -120,6 +120,8 @@ class ControlSession(QObject):
         self.notes: list[str] = []
         self.stage, self.percent = "", 0
         """What an exchange is doing, and how much of that is done."""
+        self.prompt = ""
+        """What the user is to do at the control now, for the exchange to go on."""
         self._task: Task | None = None
         self._compared: tuple[object, ImageComparison] | None = None
         """The last comparison, after all that it was made of."""
@@ -397,7 +399,7 @@ class ControlSession(QObject):
     ) -> None:
         if self._task is not None:
             return
-        self.phase, self.stage, self.percent = phase, "", 0
+        self.phase, self.stage, self.percent, self.prompt = phase, "", 0, ""
 
         def run(progress: TaskProgress, cancel: threading.Event) -> Any:
             from amp_studio.transfer import Exchange
@@ -416,7 +418,10 @@ class ControlSession(QObject):
         self.changed.emit()
 
     def _follow_stage(self, stage: str, done: int, total: int) -> None:
-        if stage not in SILENT:
+        if total < 0:  # a sentence for the user, and no stage
+            self.prompt = stage
+        elif stage not in SILENT:
+            self.prompt = ""
             self.stage, self.percent = stage, 100 * done // total if total > 0 else 0
         self.progressed.emit(stage, done, total)
 

@@ -224,12 +224,12 @@ class SeveralControls(QWidget):
         self.changed.emit()
 
     def _show_stage(self, stage: str, done: int, total: int) -> None:
-        name, _, address = stage.partition(" ")
+        name, _, address = stage.rpartition(" ")  # a stage, or a sentence for who stands at the control
         item = next((i for i in self._items() if i.text(_ADDRESS) == address), None)
         if item is not None:
             share = f"{round(100 * done / total)} %" if total > 0 else ""
             item.setText(_RESULT, share)
-            item.setText(_ENDING, stages().get(name, name))
+            item.setText(_ENDING, stages().get(name) or message_in_words(name))
 
     def _finish(self, results: Sequence[Callable[[], None]]) -> None:
         self._task = None
