@@ -392,3 +392,11 @@ def test_a_control_of_another_family_than_the_file_is_listed_with_the_name_of_it
         window.control.exchanges.remember_contact(address, "connect", reached=True, family=family)
     listed = [window.control._listed(f"tcp://10.0.0.{n}:9600").family for n in (1, 2)]
     assert listed == ["57C422B", "of a plugin"]
+
+
+def test_a_family_without_an_emulated_control_starts_none(window_with: Callable[..., MainWindow]) -> None:
+    """A process began and ended with a sentence for who writes the facts of a family."""
+    window = window_with("linuxcnc-mill")
+    window.menus["control.start"].trigger()
+    assert not window.control.emulated.is_running
+    assert window.statusBar().currentMessage() == "There is no emulated control of LinuxCNC."

@@ -6,7 +6,7 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .control import Control
-    from .family_control import EmulatedOptions, emulate, protocol_of_machine, run_house
+    from .family_control import EmulatedOptions, emulate, emulators_of, protocol_of_machine, run_house
     from .line_device import DeviceSetup, serve_device
     from .memory import Memory
     from .panel import Start

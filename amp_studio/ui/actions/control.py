@@ -111,9 +111,16 @@ class ControlDesk(Translated):
 
     def start_emulated(self) -> None:
         """Start an emulated control for the open file's family and machine type."""
+        from amp_studio.transfer.emulated import emulators_of
+
         workspace = self.window.workspace
         if workspace is not None and not self.emulated.is_running:
-            self.emulated.start(workspace.file.schema.family.family, workspace.file.machine)
+            family = workspace.file.schema.family.family
+            if not emulators_of(family):
+                text = self.tr("There is no emulated control of {family}.")
+                self.window.show_status(text.format(family=family_name(family)))
+                return
+            self.emulated.start(family, workspace.file.machine)
             self.window.menus["control.estop"].setChecked(True)
             self.window.show_status(self.tr("Starting an emulated control …"))
             self.window.enable()
