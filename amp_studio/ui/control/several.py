@@ -224,7 +224,7 @@ class SeveralControls(QWidget):
         self.changed.emit()
 
     def _show_stage(self, stage: str, done: int, total: int) -> None:
-        name, _, address = stage.rpartition(" ")  # a stage, or a sentence for who stands at the control
+        name, _, address = stage.rpartition(" ")  # a stage, or what is to be done at the control
         item = next((i for i in self._items() if i.text(_ADDRESS) == address), None)
         if item is not None:
             share = f"{round(100 * done / total)} %" if total > 0 else ""
