@@ -50,9 +50,8 @@ def write_motion_paper(
     machine: Sequence[GivenFigure] = (),
     language: str = "en",
 ) -> None:
-    """Write the result of a simulation as a document; ``name`` is the file that it was made with,
-    ``machine`` what was given of the machine, ``language`` a code of ``language_codes``.
-    Raises ValueError, SaveError.
+    """Write the result of a simulation as a document; ``name`` is the file that it was made with, ``machine``
+    what was given of the machine, ``language`` a code of ``language_codes``. Raises ValueError, SaveError.
     """
     paper = motion_paper(file, name, trace, before=before, chart=chart, machine=machine, language=language)
     write_paper(paper, path, notify)

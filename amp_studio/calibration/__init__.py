@@ -1,8 +1,7 @@
 """Errors of axes: measured points, their figures by ISO 230-2, and what a control is set to against them.
 
 ``reading.read_measurement`` reads what a laser or a ball-bar measured, ``proposal.propose`` makes of it the
-values of a file,
-``edit`` changes a table by hand. What a family offers is a record (``compensation.py``),
+values of a file, ``edit`` changes a table by hand. What a family offers is a record (``compensation.py``),
 found by its registration.
 """
 

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 def opened(
     path: Path, options: Options | None = None, notify: Callable[[str], None] = print_remark
 ) -> MachineParameters:
-    """Return the machine of a file that is only read;
-    notes about a control's own text go to standard error.
+    """Return the machine of a file that is only read; notes about a control's own text go to standard error.
 
     ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text; a verb without
     them does not offer to choose another. Raises UsageError, ParameterFileError.

@@ -130,8 +130,7 @@ class Dot:
 @dataclass(frozen=True)
 class Text:
     """A text beside a point; ``anchor`` is the side of the text that lies at the point (``inside``: in a box
-    below its corner,
-    ``corner``: below at the left, ``beside``: at the right, half way up).
+    below its corner, ``corner``: below at the left, ``beside``: at the right, half way up).
     """
 
     at: Point

@@ -1,8 +1,7 @@
 """Parameter files and projects: values in memory, on disk, and what becomes of them.
 
-Saves are atomic and leave a backup, unsaved work survives a killed program,
-two programs on one file notice each other, and a file that is not fully
-understood is refused or kept whole.
+Saves are atomic and leave a backup, unsaved work survives a killed program, two programs on one file notice
+each other, and a file that is not fully understood is refused or kept whole.
 
 What this page loads when it is first asked for is needed to change files, not to check them.
 """

@@ -98,12 +98,11 @@ def write_atomic(
     """Replace a file by new content, all or nothing.
 
     ``content`` may be worked out from the previous content, None where there is no file, or come in parts, of
-    which no digest is returned. ``expected`` is the
-    digest the file on disk must still have (None: there must be no file; "": do not look). The previous file
-    becomes the backup. A companion is readable by those who may read its file, and takes the place of a link
-    instead of following it.
-    ``notify`` is called after the save with each thing of the old file that could not be kept.
-    Returns the digest of the new content; raises ChangedOnDiskError, SaveError, and what ``content`` raises.
+    which no digest is returned. ``expected`` is the digest the file on disk must still have (None: there must
+    be no file; "": do not look). The previous file becomes the backup. A companion is readable by those who
+    may read its file, and takes the place of a link instead of following it. ``notify`` is called after the
+    save with each thing of the old file that could not be kept. Returns the digest of the new content; raises
+    ChangedOnDiskError, SaveError, and what ``content`` raises.
     """
     notes: list[str] = []
     with _as_save_error(path):

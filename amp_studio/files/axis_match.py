@@ -16,9 +16,8 @@ from .parameter_file import ParameterFile
 class MatchedAxes:
     """A file whose axes have the numbers that their letters have in another file.
 
-    ``moved``: (letter, number before, number now) of each axis that got another one.
-    ``left_out``: letters of axes for which the other file has no free number;
-    their values are not in ``file``.
+    ``moved``: (letter, number before, number now) of each axis that got another one. ``left_out``: letters of
+    axes for which the other file has no free number; their values are not in ``file``.
     """
 
     file: ParameterFile

@@ -292,11 +292,10 @@ class ParameterFile:
     def set_checked(self, wanted: Mapping[Address, Value | None], force: str = "") -> list[Change]:
         """Set several values, all or none.
 
-        Ranges are checked after all of them are in, so that a pair that bounds
-        each other can move together; an axis that changes its type takes its
-        values along as angles or lengths. With ``force`` (a text that names by whom
-        and when) values out of range are taken and marked; without it they
-        raise RangeError and nothing is changed.
+        Ranges are checked after all of them are in, so that a pair that bounds each other can move together;
+        an axis that changes its type takes its values along as angles or lengths. With ``force`` (a text that
+        names by whom and when) values out of range are taken and marked; without it they raise RangeError and
+        nothing is changed.
         """
         marks = dict(self.forced)
         with self.step() as changes:

@@ -32,9 +32,7 @@ def system_of(file: ParameterFile) -> str:
 
 
 def default_system(schema: Schema) -> str:
-    """Return the unit system that is used while none is chosen;
-    empty where the family prints no default.
-    """
+    """Return the unit system that is used while none is chosen; empty where the family prints no default."""
     chooser = schema.family.unit_parameter
     default = schema.parameters[chooser].default if chooser else None
     return str(default.value) if default and default.value in schema.family.units else ""

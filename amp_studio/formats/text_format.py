@@ -1,8 +1,7 @@
 """What a text format is: a family's own notation for its parameters, read from text and written to it.
 
-A reader gives the values it understood and, if it was asked to keep them, the
-entries it did not; it raises FormatError at the first line that cannot be
-meant, and nothing is imported then.
+A reader gives the values it understood and, if it was asked to keep them, the entries it did not; it raises
+FormatError at the first line that cannot be meant, and nothing is imported then.
 """
 
 from __future__ import annotations

@@ -7,11 +7,10 @@ A finding belongs to the last step of which it reads an untouched value: not bef
 value next to the others. Where it reads none it belongs to the step of what is wrong.
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an
-error belongs to it. In a file in which nothing is set but its axes none is reached; in one that
-lacks no value all are, and what is ticked as done is, with the steps before it. A finding that belongs to a
-later step is deferred, as delivered: a state of the file and no fault in it, unless the user has set what is
-wrong: he learns it at once.
-A download and its preview know nothing of steps.
+error belongs to it. In a file in which nothing is set but its axes none is reached; in one that lacks no
+value all are, and what is ticked as done is, with the steps before it. A finding that belongs to a later step
+is deferred, as delivered: a state of the file and no fault in it, unless the user has set what is wrong: he
+learns it at once. A download and its preview know nothing of steps.
 """
 
 from __future__ import annotations

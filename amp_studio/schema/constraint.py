@@ -1,8 +1,7 @@
 """The range of a parameter, apart from its value.
 
-``limits`` returns the allowed range, ``fault`` the reason why a value is
-not, ``clip`` mends it. Ranges are checked in the unit of entry: the printed
-inch range and the printed metric range differ in the last digit.
+``limits`` returns the allowed range, ``fault`` the reason why a value is not, ``clip`` mends it. Ranges are
+checked in the unit of entry: the printed inch range and the printed metric range differ in the last digit.
 """
 
 from __future__ import annotations

@@ -21,9 +21,8 @@ class _Keyed:
 class Value(_Keyed):
     """One value in the unit it was entered in.
 
-    ``value`` is a float or int, the key of a choice, a bool for a yes/no
-    parameter, or a text. A choice for which the control stores a code that the
-    database does not know is kept as ``raw:<code>``.
+    ``value`` is a float or int, the key of a choice, a bool for a yes/no parameter, or a text. A choice for
+    which the control stores a code that the database does not know is kept as ``raw:<code>``.
     """
 
     value: float | bool | str

@@ -50,8 +50,7 @@ def make_sheet(
 
     Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own``
     are a builder's rules. Secrets are on the sheet only with ``secrets``; ``message`` words a finding in the
-    language of the sheet. Raises SheetError where the two are
-    of different families or machine types.
+    language of the sheet. Raises SheetError where the two are of different families or machine types.
     """
     _check_sides(wanted, present)
     # A control may describe itself: its values are compared under the schema of the file.

@@ -105,9 +105,8 @@ def write_trace(
     before: Trace | None = None,
     chart: str = CHARTS[0],
 ) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all;
-    ``notify`` is called with each lost file attribute, and
-    ``chart`` is how an open loop is drawn.
+    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``notify`` is called with each lost file
+    attribute, and ``chart`` is how an open loop is drawn.
 
     Raises SimulationError for another ending, SaveError where it cannot.
     """

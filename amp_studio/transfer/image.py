@@ -1,12 +1,10 @@
 """The control image: a parameter file as the line carries it and the control keeps it.
 
-UTF-8 text, one record a line, so that two images can be compared byte for
-byte. ``docs/protocols/image.md`` specifies it. Numbers travel with the unit
-they were entered in; choices as the code the control stores, where one is
-printed, else as their key.
+UTF-8 text, one record a line, so that two images can be compared byte for byte. ``docs/protocols/image.md``
+specifies it. Numbers travel with the unit they were entered in; choices as the code the control stores, where
+one is printed, else as their key.
 
-A file has exactly one image: what would not be written the same again is no
-image, however it came about.
+A file has exactly one image: what would not be written the same again is no image, however it came about.
 """
 
 from __future__ import annotations

@@ -121,8 +121,7 @@ class Expressions:
         None where it makes no sense of them.
 
         ``keys`` are those of the single values, then of the lists. What is not asked separately comes to what
-        CEL makes of
-        ``when && !check``.
+        CEL makes of ``when && !check``.
         """
         applies = True if self._rule.when == "true" else self._when.result(keys, circumstances)
         if applies is False:

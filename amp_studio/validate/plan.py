@@ -335,10 +335,9 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
 def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str, ...]]:
     """Return the scope a rule runs over and its instances there.
 
-    It runs for each instance of what it reads of "its own" (``id``, ``id@<``,
-    ``id@>``). If that is of several scopes, it is the first for which all the
-    rest can be read: a rule over axes takes of a parameter of processes the
-    entry of a control with a single process. Raises RuleError if there is none.
+    It runs for each instance of what it reads of "its own" (``id``, ``id@<``, ``id@>``). If that is of
+    several scopes, it is the first for which all the rest can be read: a rule over axes takes of a parameter
+    of processes the entry of a control with a single process. Raises RuleError if there is none.
     """
     own = _read_of_its_own(rule)
     instances = {p: evaluation.machine_schema.instances(evaluation.schema.parameters[p]) for p in own}
@@ -359,8 +358,7 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
 def _read_of_its_own(rule: Rule) -> dict[str, bool]:
     """Return the parameters that are read of the instance or its neighbours -> whether of itself.
 
-    Only what is read of the instance itself has to exist there; a neighbour (<, >) may be missing at the
-    end.
+    Only what is read of the instance itself has to exist there; a neighbour (<, >) may be missing at the end.
     """
     own: dict[str, bool] = {}
     for text in rule.reads.values():

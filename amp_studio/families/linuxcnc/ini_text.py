@@ -3,9 +3,8 @@ F and its lines).
 
 A section ends at the next one, and only the first of its name is read (F226 to F269). Of several lines of a
 key the first counts (F353). A remark takes a whole line; behind a value it is part of the value (F393). A
-backslash goes on in the next line (F296).
-``#INCLUDE name`` at the start of a line means the lines of another file,
-which the start script puts there (LN339).
+backslash goes on in the next line (F296). ``#INCLUDE name`` at the start of a line means the lines of another
+file, which the start script puts there (LN339).
 """
 
 from __future__ import annotations

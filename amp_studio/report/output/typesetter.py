@@ -46,8 +46,7 @@ def compiled(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
     """Return the PDF of Typst source, and why it does not keep to the standards; empty where it does.
 
     It does not where no font here has a script, or where a drawing of a project's template has no words.
-    ``options`` are those of ``typst.compile`` that JSON can have, a timestamp as its text.
-    Raises TypstError.
+    ``options`` are those of ``typst.compile`` that JSON can have, a timestamp as its text. Raises TypstError.
     """
     from datetime import datetime
 

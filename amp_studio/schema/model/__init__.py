@@ -1,8 +1,7 @@
 """The words the parameter database is written in.
 
-Every YAML file under ``parameter_db`` is read into these models, and into
-nothing else: what a family can describe is exactly what is here. A model
-forbids unknown keys, so a typing error in a fact cannot hide.
+Every YAML file under ``parameter_db`` is read into these models, and into nothing else: what a family can
+describe is exactly what is here. A model forbids unknown keys, so a typing error in a fact cannot hide.
 
 ``docs/schema.md`` explains the same words to a person who writes YAML.
 """

@@ -132,9 +132,8 @@ class Storage(Model):
 class Numbers(Model):
     """By which numbers people and controls address the instances of a parameter.
 
-    Instance number k (counting from 0) has number ``start + k * step`` written
-    through ``format``; ``listed`` names instances one by one instead, and ``starts``
-    gives the first number of each array of parts.
+    Instance number k (counting from 0) has number ``start + k * step`` written through ``format``; ``listed``
+    names instances one by one instead, and ``starts`` gives the first number of each array of parts.
     """
 
     start: int | None = None

@@ -117,9 +117,8 @@ class Model:
     """A frozen record that refuses keys it does not know.
 
     To construct one, or ``model_validate``, checks all of its data and raises pydantic's ValidationError, a
-    ValueError.
-    ``model_construct`` and ``model_copy`` check nothing: they are for data that have been checked.
-    ``__post_init__`` is what a kind of record asks of its fields together.
+    ValueError. ``model_construct`` and ``model_copy`` check nothing: they are for data that have been
+    checked. ``__post_init__`` is what a kind of record asks of its fields together.
     """
 
     fields: ClassVar[Mapping[str, Any]] = {}

@@ -45,11 +45,10 @@ def _names(reads: dict[str, str]) -> dict[str, str]:
 class Rule(Model):
     """A constraint between parameters, in CEL.
 
-    ``reads`` binds short names to parameters of the instance at hand:
-    ``id`` the same instance, ``id@*`` the list over all instances, ``id@<`` and
-    ``id@>`` those before and after, ``id@.`` the parts of the same instance (the gears
-    of its spindle), ``id@3`` one of them, and a plain ``id`` of global scope wherever
-    it is used. Numbers arrive in the quantity's canonical unit.
+    ``reads`` binds short names to parameters of the instance at hand: ``id`` the same instance, ``id@*`` the
+    list over all instances, ``id@<`` and ``id@>`` those before and after, ``id@.`` the parts of the same
+    instance (the gears of its spindle), ``id@3`` one of them, and a plain ``id`` of global scope wherever it
+    is used. Numbers arrive in the quantity's canonical unit.
     """
 
     id: Annotated[str, Pattern(r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]

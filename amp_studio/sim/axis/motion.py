@@ -87,9 +87,8 @@ def run_axis(
     ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share;
     ``refine`` divides the physics step; ``thin`` keeps one row for each velocity sample; without
     ``feed_forward`` the law sees the commanded position only; after an alarm, or the emergency stop at
-    ``emergency`` s, the axis runs out for up to
-    ``coast`` s. Raises SimulationError where the run would take too long
-    or its figures are beyond all numbers.
+    ``emergency`` s, the axis runs out for up to ``coast`` s. Raises SimulationError where the run would take
+    too long or its figures are beyond all numbers.
     """
     axis = with_leader(axis, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine)
     samples, substeps = steps(axis, refine)

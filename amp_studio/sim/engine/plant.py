@@ -124,8 +124,7 @@ def brake(m: Vector) -> None:
 
 def stretch(gap: float, twist: float, half: float) -> float:
     """Return the mean stretch of a spring with ``gap`` u of play to each side, in u, over a step that takes
-    its twist from
-    ``twist - half`` to ``twist + half``.
+    its twist from ``twist - half`` to ``twist + half``.
 
     The mean of the whole way, not the stretch in its middle: so contact takes up and gives back the same
     energy, wherever in a step it begins.

@@ -203,8 +203,7 @@ def _margins_text(margins: Margins) -> str:
 
 def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
     """Return between which shares of its total inertia a stable axis stays stable, within _INERTIAS; None
-    where it does not
-    matter: a drive with a velocity loop is taken to fit its load.
+    where it does not matter: a drive with a velocity loop is taken to fit its load.
     """
     if axis.machine.velocity_per_output > 0.0:
         return None

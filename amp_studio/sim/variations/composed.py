@@ -106,9 +106,7 @@ class ComposedAxes:
             return self._bind(point)
 
     def _changed(self, index: int, number: float) -> _Parts | None:
-        """Return which figures one varied figure changes; None for no axis, or one of another
-        shape.
-        """
+        """Return which figures one varied figure changes; None for no axis, or one of another shape."""
         key = index, number
         if key not in self._changes:
             point = [*self._at[:index], number, *self._at[index + 1 :]]

@@ -1,8 +1,7 @@
 """The verbs between a file and a control, over any driver: download, upload, restore.
 
-Words as the manuals use them: a download goes from here to the control, an
-upload from the control to here. A restore is the download of what a control
-has contained.
+Words as the manuals use them: a download goes from here to the control, an upload from the control to here. A
+restore is the download of what a control has contained.
 """
 
 from __future__ import annotations

@@ -8,9 +8,8 @@ Its memory:
     commit.json           a commit under way: the digest it leads to, and its answer
     outgoing.img          what becomes previous.img when that commit has happened
 
-The one moment a commit happens in is the rename of the staged file to
-active.img. After a crash, commit.json and the digest of active.img show on
-which side of it the control stopped.
+The one moment a commit happens in is the rename of the staged file to active.img. After a crash, commit.json
+and the digest of active.img show on which side of it the control stopped.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """An emulated control in a separate process, on a real line, with its memory on disk.
 
-The manual's chapter 2 for the 9/PC is its model: a download needs E-stop, the
-control restarts to make it current (by itself or by hand), and until then
-no client can talk to it.
+The manual's chapter 2 for the 9/PC is its model: a download needs E-stop, the control restarts to make it
+current (by itself or by hand), and until then no client can talk to it.
 """
 
 from __future__ import annotations
@@ -254,9 +253,7 @@ class Emulator:
         return f"restarted {self._control.boot_count}"
 
     def _prepare_start(self) -> None:
-        """Ask the panel for the next start, while there is time;
-        again if the control was changed since.
-        """
+        """Ask the panel for the next start, while there is time; again if the control was changed since."""
         state = self._control.sha256, self._control.flags & Flags.CHANGED_AT_CONTROL
         if self._start is None or self._start[0] != state:
             self._start = state, self._panel.started(self._control)

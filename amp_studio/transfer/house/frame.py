@@ -3,9 +3,8 @@
     frame   = COBS(body) 00
     body    = type u8, sequence u16, payload, CRC-32 u32      (numbers little-endian)
 
-COBS (consistent overhead byte stuffing) leaves no zero byte in what it
-encodes, so a zero byte always ends a frame. What the decoder assumes and how
-it recovers:
+COBS (consistent overhead byte stuffing) leaves no zero byte in what it encodes, so a zero byte always ends a
+frame. What the decoder assumes and how it recovers:
 
 - garbage before a frame: it is dropped with the frame it ran into; a single
   00 in front of the first frame of a line ends whatever was there before.

@@ -101,8 +101,7 @@ class ProvenLink:
 class GuardedLink:
     """A link without a password that notices when the control asks for one, and is opened again with it.
 
-    ``reopen`` returns a link on which the password is proven,
-    and raises PasswordError where none is known.
+    ``reopen`` returns a link on which the password is proven, and raises PasswordError where none is known.
     """
 
     def __init__(self, link: Link, reopen: Callable[[], Link]) -> None:

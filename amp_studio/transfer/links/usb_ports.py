@@ -15,8 +15,7 @@ class SerialPort:
     """A port: ``device`` is what an endpoint names; the rest is "" where nothing is known.
 
     ``lasting`` is a name that stays with the adapter when it is plugged in elsewhere or after another one,
-    and
-    ``location`` the socket it is plugged into (bus, then port of each hub).
+    and ``location`` the socket it is plugged into (bus, then port of each hub).
     """
 
     device: str

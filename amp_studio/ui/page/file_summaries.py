@@ -33,9 +33,7 @@ class FileSummaries(QObject):
         return self._known.get(_version(path))
 
     def want(self, paths: Iterable[Path]) -> None:
-        """Read what is not known of these files, in their order; what was asked for before is
-        dropped.
-        """
+        """Read what is not known of these files, in their order; what was asked for before is dropped."""
         self._asked = [] if self._is_over else list(paths)
         self._next()
 

@@ -6,9 +6,8 @@ constant is one (Parker Hannifin, ACR Programmer's Guide, page 60, "Parametric E
 expression is the controller's to work out, and no setting here.
 
 ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that
-names the command, and
-``{other.id}`` that of another one. Blanks between characters may be there or not (``TLM X 2``, ``TLM X4``,
-page 115).
+names the command, and ``{other.id}`` that of another one. Blanks between characters may be there or not
+(``TLM X 2``, ``TLM X4``, page 115).
 """
 
 from __future__ import annotations

@@ -156,9 +156,8 @@ class Variables:
     """The names of registers in a task: those of the manual's own tasks, else ``REG_`` and the number.
 
     The configuration of a rack gives the names (page 4-2). Which variable is which register the family's
-    table
-    ``basic-variables`` lists; ``REG_64%`` is printed for register 64 (page 4-48)
-    and does for every other one.
+    table ``basic-variables`` lists; ``REG_64%`` is printed for register 64 (page 4-48) and does for every
+    other one.
     """
 
     def __init__(self, schema: Schema) -> None:
