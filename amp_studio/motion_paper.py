@@ -116,7 +116,7 @@ def check_drawings(file: ParameterFile, checks: Sequence[MotionCheck]) -> dict[i
             parts = [key for key, _ in plans.parts][:_PLANS]
             found[n] = tuple(_check_drawing(draw_usual_approach(plans, part)) for part in parts)
         elif check.scenario == "spindle" and "gears" in pictures:
-            found[n] = (_check_drawing(draw_spindle(pictures["gears"], "", check.trace)),)
+            found[n] = (_check_drawing(draw_spindle(pictures["gears"], check.trace)),)
     return found
 
 

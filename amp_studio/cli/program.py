@@ -1,4 +1,4 @@
-"""Runs a verb and ends with the truth: an exit code and one line on what went wrong and what is true now."""
+"""Runs a verb and returns its exit code; an error is one line: what went wrong, and the state of the files."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PARAMETER_FILE = ".amp"
 
 
 def start(arguments: Sequence[str] | None) -> NoReturn:
-    """Be the program: run one verb on the standard streams and exit with its code."""
+    """Run one verb on the standard streams and exit with its code."""
     try:
         raise_on_interrupt()
         open_streams()
@@ -45,9 +45,8 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
 
 def run_verb(arguments: Sequence[str]) -> int:
     """Run one verb and return its exit code."""
-    if all(
-        argument.lower().endswith(_PARAMETER_FILE) for argument in arguments
-    ):  # none, or a double click on some
+    # No arguments, or files that a desktop opens by a double click.
+    if all(argument.lower().endswith(_PARAMETER_FILE) for argument in arguments):
         from amp_studio.ui import main as desktop
 
         return desktop(arguments)
@@ -57,17 +56,15 @@ def run_verb(arguments: Sequence[str]) -> int:
     try:
         return _run(arguments, replaced)
     except KeyboardInterrupt:  # also one that came while another refusal was put into words
-        if (
-            arguments[0] == "emulate"
-        ):  # an emulated control that has not begun yet: there is no other way to end it
+        # An emulated control that has not begun yet: there is no other way to end it.
+        if arguments[0] == "emulate":
             return _quit()
         return _refuse("stopped", replaced)
 
 
 def _complete(words: Sequence[str]) -> int:
-    """Answer a shell; whatever goes wrong is no answer."""
+    """Print the completions that a shell asks for; an error prints none."""
     from .completion import answer
-    from .screen import end_results
 
     try:
         answer(words, os.environ.get("AMP_STUDIO_BREAKS", ""))
@@ -111,7 +108,7 @@ def _print_help() -> None:
 
 
 _OF_THE_PROGRAM = {"--version": _print_version, "-h": _print_help, "--help": _print_help}
-"""What the program is asked for itself, not one of its verbs."""
+"""Options of the program itself, not of one of its verbs."""
 
 
 def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
@@ -142,7 +139,7 @@ def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
 
 
 def _sentence(error: BaseException) -> str:
-    """Return the one line a person sees; an unforeseen error is named, with where its details are."""
+    """Return the message of an error in one line; an unforeseen one names the file with its details."""
     from amp_studio.schema import DatabaseError, UnknownParameterError
     from amp_studio.trouble import keep_details
 

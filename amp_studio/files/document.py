@@ -349,7 +349,7 @@ class Document:
         """Return the work a killed program left for this file, or None; this document's own is not left yet.
 
         A journal that cannot be read leaves nothing to offer;
-        a change in it that cannot be meant is left out.
+        an impossible change in it is left out.
         """
         if self._journal_is_ours:
             return None

@@ -10,9 +10,9 @@ from amp_studio.sim import Trace, value_text
 from .file_pictures import FilePicture
 
 
-def draw_spindle(picture: FilePicture, part: str, trace: Trace | None = None) -> Scene:
+def draw_spindle(picture: FilePicture, trace: Trace | None = None) -> Scene:
     """Return the gears of a spindle, with what ``trace`` of `spindle` made of a programmed speed."""
-    base = replace(picture.scene(part), handles=())
+    base = replace(picture.scene(""), handles=())
     if trace is None:
         return base
     figure = {name: value for name, (value, _) in trace.result.items()}

@@ -1,7 +1,7 @@
 """The expressions of a rule, compiled, with every name in them accounted for.
 
-A rule that misspells a name would never be broken and never be missed, so
-whatever a rule contains that cannot be meant is a fault before it runs.
+A rule that misspells a name would never report anything, unnoticed: an unknown name is an error
+before the rule runs.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ def test_speeds_that_no_gear_has_are_a_doubt_and_an_amber_field() -> None:
     file.set(low, type(old)(540, old.unit))
     check = check_again(file, "spindle", None)
     assert (check.verdict, check.why) == ("doubtful", "No gear has the speeds from 500 to 540 rpm")
-    scene = draw_spindle(picture(file, "gears"), "", check.trace)
+    scene = draw_spindle(picture(file, "gears"), check.trace)
     gap = next(area for area in scene.areas if area.sort == "gap")
     assert (gap.left, gap.right) == (500.0, 540.0)
     assert "40 rpm in no gear" in texts_of(scene)

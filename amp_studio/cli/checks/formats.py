@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import re
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -183,7 +184,7 @@ class _JsonFormat(CheckFormat):
     def all(self, results: Sequence[CheckResult]) -> str:
         # As text: each file was written as JSON by the process that checked it.
         entries = [one.printed or _dumped({"file": str(one.path), "error": one.fault}) for one in results]
-        return '{\n  "files": [\n' + ",\n".join(_indented(entry, 4) for entry in entries) + "\n  ]\n}"
+        return '{\n  "files": [\n' + ",\n".join(_indented(entry) for entry in entries) + "\n  ]\n}"
 
     def _finding(self, checked: FileFindings, finding: Finding) -> dict[str, Any]:
         """Return a finding of the JSON document, with its reasons where they are asked for."""
@@ -443,6 +444,6 @@ def _dumped(data: Any) -> str:
     return json.dumps(data, ensure_ascii=False, indent=2)
 
 
-def _indented(text: str, by: int) -> str:
-    """Return a JSON document further to the right; a line end is never part of a text of it."""
-    return " " * by + text.replace("\n", "\n" + " " * by)
+def _indented(document: str) -> str:
+    """Return a JSON document four columns to the right; its strings contain no line end."""
+    return textwrap.indent(document, "    ")

@@ -3,19 +3,16 @@ alarms and errors.
 
     [AXS:3:XYZ]                                                        $I      number of axes, their letters
     [SETTINGGROUP:43|42|X-axis]                                        $EG     group, the group it is in, name
-    [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     number, group, name, unit,
-    type, format,
-                                                                               least, most, needs a restart, 0
-                                                                               allowed
-    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \n is a new line; or in
-    $ESH the
-                                                                               sixth column between tabs
+    [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     ten entries, see below
+    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \n is a new line
     [ALARMCODE:1||Hard limit has been triggered. …]                    $EA
     [ERRORCODE:10||Soft limits cannot be enabled …]                    $EE
 
-A description is a text of these lines in any order; other lines are passed over, so that all that was read
-from a control is one too. It comes from outside: it is bounded,
-and whatever cannot be meant is a DescriptionError.
+The entries of a setting: number, group, name, unit, type, format, least, most, needs a restart, may be 0.
+The help may also come in the sixth column of ``$ESH``, between tabs.
+
+The lines may be in any order, and other lines are ignored: all that was read from a control is a description
+too. Its size is limited, as it comes from outside; an impossible entry raises DescriptionError.
 """
 
 from __future__ import annotations
@@ -30,7 +27,7 @@ T = TypeVar("T")
 MAX_BYTES = 2**20
 _MAX_SETTINGS, _MAX_GROUPS, _MAX_CODES = 2000, 500, 1000
 _LONGEST = 4000
-"""Signs of a text that is kept; the longest help there is has some 800."""
+"""Characters of a text that is kept; the longest known help has some 800."""
 _HELP_ROW = 10
 """Columns of ``$ESH``."""
 _MAX_NUMBER = 65535

@@ -30,7 +30,7 @@ from amp_studio.schema import (
 _BUILD = "build"
 """The group of what is compiled in."""
 _LONGEST = 80
-"""Signs of a number; the control shows at most some 20."""
+"""Characters of a number; the control shows at most some 20."""
 
 
 class SettingError(InvalidValueError):

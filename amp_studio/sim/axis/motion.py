@@ -21,7 +21,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 
 PARAMETERS, IO, MACHINE, BEFORE, AFTER, STATE, LINE, TIMING, PROFILE, PUSH = 0, *range(2, 11)
-"""Places of vectors that `prepared` returns."""
+"""Places of the vectors that `prepared` returns; the state of the law, at 1, needs no name."""
 Engine = Literal["auto", "plain", "compiled"]
 
 _LONGEST_STEP = 0.4e-3
@@ -88,7 +88,7 @@ def run_axis(
     ``refine`` divides the physics step; ``thin`` keeps one row for each velocity sample; without
     ``feed_forward`` the law sees the commanded position only; after an alarm, or the emergency stop at
     ``emergency`` s, the axis runs out for up to ``coast`` s. Raises SimulationError where the run would take
-    too long or its figures are beyond all numbers.
+    too long or its figures overflow.
     """
     axis = with_leader(axis, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine)
     samples, substeps = steps(axis, refine)
@@ -228,7 +228,7 @@ def run_prepared(
     axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, expected: float
 ) -> tuple[int, list[float], list[float]]:
     """Run the kernel for about ``expected`` steps; return the filled rows,
-    the signals and the state at the end. Raises SimulationError where the numbers leave all bounds.
+    the signals and the state at the end. Raises SimulationError where they overflow.
     """
     law = axis.position_sample, axis.velocity_sample
     machine_code = engine == "compiled" or (engine == "auto" and pays_off(*law, expected))

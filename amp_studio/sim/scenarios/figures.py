@@ -49,13 +49,13 @@ def _at_servo_samples(motion: Motion, column: str) -> Series:
     return motion.columns[column][motion.driven][:: motion.rows_per_servo_period]
 
 
-def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: str) -> float | None:
-    """Return the size of the steady mean of a column in the longest stretch at the full feedrate (u/s).
+def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float) -> float | None:
+    """Return the size of the steady mean following error in the longest stretch at the full feedrate (u/s).
 
     What goes to and fro around 0 has a mean of 0. None if the stretch is shorter than STEADY_LAGS time
     constants or the figure is not steady in it.
     """
-    series = _at_servo_samples(motion, column)
+    series = _at_servo_samples(motion, "following_error")
     speed = np.abs(_at_servo_samples(motion, "command_velocity"))
     constant = np.abs(speed / feedrate - 1.0) <= _STEADY_SPEED
     edges = np.flatnonzero(np.diff(np.concatenate(([0], constant.astype(np.int8), [0]))))

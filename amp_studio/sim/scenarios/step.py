@@ -68,7 +68,7 @@ def _figures(
     driven = {name: column[motion.driven] for name, column in motion.columns.items()}
     error = np.abs(driven["following_error"][:: motion.rows_per_servo_period])
     forward = driven["position"] * math.copysign(1.0, moved.distance)
-    steady = steady_at_feedrate(axis, motion, moved.feedrate, "following_error") if stable else None
+    steady = steady_at_feedrate(axis, motion, moved.feedrate) if stable else None
     in_position, settle = settled(axis, motion, moved.distance) if stable else (None, None)
     predicted: Mapping[str, Figure] = {
         f"predicted_{name}": (each.value, each.unit) for name, each in axis.predict(moved.feedrate).items()

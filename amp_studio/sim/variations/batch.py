@@ -107,7 +107,7 @@ def run_batch(
     rate of the feed share in 1/s.
 
     ``machine_code`` None is as `motion.run_axis` chooses.
-    A run whose numbers leave all bounds has ``nan`` figures and the stop DIVERGED.
+    A run whose numbers overflow has ``nan`` figures and the stop DIVERGED.
     """
     axis, _, until, *_ = runs[0]
     samples, substeps = steps(axis)

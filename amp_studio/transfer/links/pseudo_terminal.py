@@ -57,7 +57,7 @@ class PtyLink:
         """Return the rate in bit/s and the stop bits that the client has set;
         a pseudo terminal knows no parity.
         """
-        if sys.platform == "win32":  # there is no such listener then
+        if sys.platform == "win32":  # PtyListener refuses this system
             raise NotImplementedError
         import termios
 
@@ -96,7 +96,7 @@ class PtyListener:
             raise LinkError("pty:", str(error)) from None
 
     def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002  # nothing here is waited for
-        """Return the line; while one is in use, None (a serial port has no connections)."""
+        """Return the link; None while one is in use, as a serial port has no connections."""
         if self._link is not None and self._link.is_open:
             return None
         with contextlib.suppress(OSError):

@@ -49,7 +49,7 @@ class FindBox(QLineEdit):
     """Escape in a box whose list is closed: back to the table."""
 
     def __init__(self, ask: Callable[[str], Sequence[FindRow]], window: QWidget) -> None:
-        """Return a box of a window; ``ask`` gives the rows of a question."""
+        """Make the box of a window; ``ask`` gives the rows of a question."""
         super().__init__()
         self._ask = ask
         self._show_hint()

@@ -54,7 +54,7 @@ class FindingsDelegate(QStyledItemDelegate):
     def __init__(
         self, view: QTreeView, model: FindingsModel, act: Callable[[Part, QModelIndex], object]
     ) -> None:
-        """Return a delegate that calls ``act`` with what was clicked."""
+        """Make a delegate that calls ``act`` with what was clicked."""
         super().__init__(view)
         self._view, self._model, self._act = view, model, act
         self.may_edit = True

@@ -20,7 +20,7 @@ class Segment(QWidget):
     def __init__(
         self, name: str, options: Sequence[tuple[str, str, str]] = (), *, is_tight: bool = False
     ) -> None:
-        """Return a segment with an accessible name; each option is its key,
+        """Make a segment with an accessible name; each option is its key,
         its text and the name of an icon or nothing. A tight one is for a narrow panel.
         """
         super().__init__()

@@ -409,7 +409,7 @@ class SpindleCard(Card):
             if found[0] != "spindle":
                 self.show_trace(found[1])
             elif self.picture is not None:
-                self.show_scene(draw_spindle(self.picture, "", found[1]))
+                self.show_scene(draw_spindle(self.picture, found[1]))
                 alarms = "; ".join(f"{each.code} {sentenced(each.message)}" for each in found[1].alarms)
                 if alarms:
                     self.about.setText(alarms)

@@ -167,9 +167,6 @@ class AssumptionsPage(QTextBrowser):
         super().__init__()
         self.setFrameShape(QFrame.Shape.NoFrame)
 
-    def _at(self, time_s: float) -> str:
-        return html.escape(self.tr("at {time} s").format(time=written(f"{time_s:.4g}")))
-
     def show_trace(self, family: str, trace: Trace) -> None:
         """Show the assumptions of a trace of a family."""
         ordered = sorted(trace.assumptions, key=lambda text: not text.startswith("ASSUMED"))

@@ -118,9 +118,9 @@ class CellPainter:
 
     # -- one cell ----------------------------------------------------------------
 
-    def paint_background(self, painter: QPainter, place: QRect, colour_name: Token) -> None:
+    def paint_background(self, painter: QPainter, place: QRect) -> None:
         """Paint a cell that has no value: of another kind of instance, or the head of a section."""
-        painter.fillRect(place, self._colours[colour_name])
+        painter.fillRect(place, self._colours["panel"])
 
     def grid(self, painter: QPainter, place: QRect, *, is_section: bool = False) -> None:
         """Paint the lines below and right of a cell."""
@@ -140,12 +140,12 @@ class CellPainter:
         is_selected: bool,
         is_hovered: bool,
     ) -> None:
-        """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit in a slot.
+        """Paint a cell: background, tint, hatch, bar, icon, marks, value, unit in a slot.
 
         A number is painted in the first ``number_room`` pixels of a cell that is wider than a column.
         """
         if look.kind == "absent":
-            painter.fillRect(place, self._colours["panel"])
+            self.paint_background(painter, place)
             return
         severity = _SEVERITIES.get(look.severity)
         self._background(painter, place, look, severity, is_selected=is_selected, is_hovered=is_hovered)

@@ -60,7 +60,7 @@ class FilterBar(QWidget):
     """The filter for what changed since the last download is asked for; ``take_download`` answers."""
 
     def __init__(self, title: ListTitle, table: ParameterTable) -> None:
-        """Return the bar of a table; ``title`` is shown at its left."""
+        """Make the bar of a table; ``title`` is shown at its left."""
         super().__init__()
         self.setAccessibleName(self.tr("Filters of the table"))
         self._table, self._workspace = table, table.workspace

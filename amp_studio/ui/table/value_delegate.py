@@ -87,7 +87,7 @@ class ValueDelegate(QStyledItemDelegate):
         elif column >= len(self._table.columns):
             super().paint(painter, option, index)
         else:
-            self.painter.paint_background(painter, place, "panel")
+            self.painter.paint_background(painter, place)
         self.painter.grid(painter, place, is_section=bool(self._table.rows[row].section))
 
     def cell_place(self, place: QRect, index: ModelIndex) -> QRect:

@@ -20,7 +20,7 @@ class TabCorner(QWidget):
     def __init__(
         self, new: QAction, beside: QAction, files: Callable[[], Iterable[tuple[str, Callable[[], object]]]]
     ) -> None:
-        """Return the buttons of two actions, and one for the ``files``:
+        """Make the buttons of two actions, and one for the ``files``:
         each a name and what brings it to the front.
         """
         super().__init__()

@@ -29,7 +29,7 @@ class MainToolBar(QToolBar):
     def __init__(
         self, window: StudioWindow, actions: Mapping[str, QAction], parts: Mapping[str, Sequence[str]]
     ) -> None:
-        """Return the bar of a window; ``parts`` has the keys of the actions in each part of it."""
+        """Make the bar of a window; ``parts`` has the keys of the actions in each part of it."""
         super().__init__(self.tr("Main"), window)
         self.setObjectName("main-toolbar")
         self.setMovable(False)

@@ -42,7 +42,8 @@ def run(options: Options) -> int:
         done = machine.fix(options.rule, param=options.param, safe=options.safe, validator=validator)
         if done and not dry:
             machine.save(verb="fix")
-            validator = machine.validator()  # what it was is now the backup
+            # The saved file became the backup, which the findings are compared with.
+            validator = machine.validator()
             validator.run()
     findings = validator.findings()
     left = Counter(finding.severity for finding in findings)
@@ -58,12 +59,12 @@ def run(options: Options) -> int:
     else:
         print("\n".join(_lines(options, file, done, findings)))
     if not done:
-        print_remark(_print_nothing_to_fix(options, validator))
+        print_remark(_nothing_to_fix(options, validator))
     return int(left["error"] > 0)
 
 
-def _print_nothing_to_fix(options: Options, validator: Validator) -> str:
-    """Print that there was nothing to fix, and what could be fixed otherwise."""
+def _nothing_to_fix(options: Options, validator: Validator) -> str:
+    """Return that there was nothing to fix, and the rules that have fixes without these options."""
     others = _fixable(validator.findings())
     message = f"{options.path}: nothing to fix"
     return message + (f" with these options; there are fixes of {others}" if others else "")

@@ -37,7 +37,7 @@ VERB = Verb(
 
 
 def run(options: Options) -> int:
-    """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
+    """Make a parameter file of a text; nothing is written when a part of it cannot be read."""
     from amp_studio import import_text
     from amp_studio.cli.accounts import print_account
     from amp_studio.cli.out_of_range import settle_values

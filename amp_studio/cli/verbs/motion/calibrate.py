@@ -300,7 +300,7 @@ def _lines(
     correction: _Correction,
     changes: list[Change],
 ) -> Iterator[str]:
-    """Yield the same for the terminal."""
+    """Yield the lines for a terminal: the measurement, the table, each change."""
     from amp_studio.calibration import present_table
     from amp_studio.files import describe
     from amp_studio.schema import show_value

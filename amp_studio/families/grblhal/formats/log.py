@@ -39,7 +39,7 @@ _FIGURE = re.compile(rf"(?:{IP}|{NUMBER})(?![\w.:])")
 _SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
 _COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
 _CELLS = "|;\t,"
-"""Signs between the cells of a table."""
+"""Characters between the cells of a table."""
 _AHEAD = re.compile(
     r"""(?:
       \[[^\]]{0,40}\]                                                  # [12:30:01], [PRB], [ $$ ]
