@@ -1,4 +1,4 @@
-"""Runs a verb and returns its exit code; an error is one line: what went wrong, and the state of the files."""
+"""Runs a verb and returns its exit code; an error is one line: what went wrong, and the state of files."""
 
 from __future__ import annotations
 

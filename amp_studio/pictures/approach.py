@@ -144,9 +144,7 @@ def draw_approach(
             beyond, words = _past_limit(base, stop, past, hard)
             lines.append(beyond)
             texts.append(words)
-        if trace is not None and (feed := trace.result.get("feedrate", (None, ""))[0]) is not None:
-            speed = value_text(feed, trace.result["feedrate"][1])
-            texts.append(Text(_between(way.start, stop), speed, "", "right", None, "now"))
+        texts += _speed(trace, _between(way.start, stop))
         notes += [PictureNote(text, wrong=bool(trace and trace.alarms), is_remark=True)] if text else []
     return replace(
         base,
@@ -158,6 +156,12 @@ def draw_approach(
         notes=tuple(notes),
         handles=(),
     )
+
+
+def _speed(trace: Trace | None, at: Point) -> list[Text]:
+    """Return the feedrate of a run as a text beside its way; none before it has run."""
+    feed, unit = (None, "") if trace is None else trace.result.get("feedrate", (None, ""))
+    return [] if feed is None else [Text(at, value_text(feed, unit), "", "right", None, "now")]
 
 
 def _past_limit(base: Scene, stop: Point, past: Point, hard: float | None) -> tuple[Polyline, Text]:

@@ -184,11 +184,14 @@ def _judged(
         verdict, why = "doubtful", _ONE_END
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
-    figures, alarms, notes = dict[str, Figure](), list[Alarm](), dict[str, None]()
-    for trace, assumed, end in runs:
-        figures |= {name + end: trace.result[name] for name in scenario.checked if name in trace.result}
-        alarms += [each for each in trace.alarms if each not in alarms]
-        notes |= dict.fromkeys((*assumed, *trace.assumptions))
+    figures = {
+        name + end: trace.result[name]
+        for trace, _, end in runs
+        for name in scenario.checked
+        if name in trace.result
+    }
+    alarms = dict.fromkeys(alarm for trace, _, _ in runs for alarm in trace.alarms)
+    notes = dict.fromkeys(note for trace, assumed, _ in runs for note in (*assumed, *trace.assumptions))
     params = _parameters(file, law, decided) if verdict != "good" and instance else ()
     return MotionCheck(
         scenario.name,

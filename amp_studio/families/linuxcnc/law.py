@@ -170,21 +170,10 @@ def bind(read: AxisParameters) -> AxisLaw:
 def homing(joint: _Joint) -> Homing:
     """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses."""
     fastest = joint.number("max_velocity", 60.0) / 60.0
-    search, latch = (
-        _at_most(fastest, joint.number(name, 0.0) / 60.0)
-        for name in ("home_search_velocity", "home_latch_velocity")
-    )
     encoder = joint.value("home_absolute_encoder")
     is_absolute = encoder in ("with-final-move", "without-final-move")
-    if is_absolute:  # its place is known: no switch and no marker is looked for
-        search = latch = 0.0
     has_index = joint.value("home_use_index") in (True, "yes")
-    if ((search != 0.0) and latch == 0.0) or (search == 0.0 and latch != 0.0 and not has_index):
-        raise SimulationError(
-            "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be"
-            " homed",
-            ids.joint_home_latch_velocity,
-        )
+    search, latch = _search_and_latch(joint, fastest, is_absolute=is_absolute, has_index=has_index)
     sequence = joint.optional("home_sequence")
     home, offset = joint.number("home", 0.0), joint.number("home_offset", 0.0)
     final = joint.number("home_final_velocity", -60.0) / 60.0
@@ -211,6 +200,25 @@ def homing(joint: _Joint) -> Homing:
         page="H796",
         notes=(*_HOMED, ENCODER) if is_absolute else _HOMED,
     )
+
+
+def _search_and_latch(
+    joint: _Joint, fastest: float, *, is_absolute: bool, has_index: bool
+) -> tuple[float, float]:
+    """Return both velocities; raises SimulationError for a pair that LinuxCNC refuses."""
+    search, latch = (
+        _at_most(fastest, joint.number(name, 0.0) / 60.0)
+        for name in ("home_search_velocity", "home_latch_velocity")
+    )
+    if is_absolute:  # its place is known: no switch and no marker is looked for
+        return 0.0, 0.0
+    if (search != 0.0 and latch == 0.0) or (search == 0.0 and latch != 0.0 and not has_index):
+        raise SimulationError(
+            "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be"
+            " homed",
+            ids.joint_home_latch_velocity,
+        )
+    return search, latch
 
 
 def _at_most(fastest: float, velocity: float) -> float:

@@ -268,10 +268,18 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "least_damping_ratio": (loop.model.least_damping(), ""),
         "least_stable_inertia": (inertias[0] if inertias else None, ""),
         "most_stable_inertia": (inertias[1] if inertias else None, ""),
+        **_of_velocity_loop(loop, inside),
+    }
+
+
+def _of_velocity_loop(loop: _Loop, inside: Margins | None) -> dict[str, Figure]:
+    """Return the figures of the velocity loop; None for each where the control closes none."""
+    phase, gain, bandwidth = (inside.phase, inside.gain, inside.phase_frequency) if inside else (None,) * 3
+    return {
         "velocity_loop_Ms": (loop.inner.sensitivity()[0] if loop.inner and loop.stable else None, ""),
-        "velocity_loop_phase_margin": (inside.phase if inside else None, "deg"),
-        "velocity_loop_gain_margin": (inside.gain if inside else None, "dB"),
-        "velocity_loop_bandwidth": (inside.phase_frequency if inside else None, "Hz"),
+        "velocity_loop_phase_margin": (phase, "deg"),
+        "velocity_loop_gain_margin": (gain, "dB"),
+        "velocity_loop_bandwidth": (bandwidth, "Hz"),
     }
 
 

@@ -150,20 +150,25 @@ def _figures(
     stable = loops.stable and loops.inner_stable
     linear = loops.yields[0] if stable and loops.closed else math.inf
     band = max(axis.machine.position_count, BACK * found.sag if found else 0.0)
+    stiffness, sag, remains, recovery, lost = (
+        (found.sag / load, found.sag, found.remains, found.recovery(band), found.lost_motion)
+        if found
+        else (None,) * 5
+    )
     figures: dict[str, Figure] = {
         "load": (load, torque),
-        "stiffness": (found.sag / load if found else None, f"{unit}/{torque}"),
+        "stiffness": (stiffness, f"{unit}/{torque}"),
         "predicted_stiffness": (linear if math.isfinite(linear) else None, f"{unit}/{torque}"),
-        "sag": (found.sag if found else None, unit),
-        "remaining_deflection": (found.remains if found else None, unit),
-        "recovery_time": (found.recovery(band) if found else None, "s"),
-        "lost_motion": (found.lost_motion if found else None, unit),
+        "sag": (sag, unit),
+        "remaining_deflection": (remains, unit),
+        "recovery_time": (recovery, "s"),
+        "lost_motion": (lost, unit),
         "Ms": (loops.outer.sensitivity if stable else None, ""),
     }
     if loops.inner is not None:
         figures["velocity_loop_Ms"] = (loops.inner.sensitivity if loops.inner_stable else None, "")
     if force is not None and unit == "mm":
-        figures["stiffness_by_force"] = (1e3 * found.sag / (load * force) if found else None, "µm/N")
+        figures["stiffness_by_force"] = (1e3 * sag / (load * force) if sag is not None else None, "µm/N")
     return figures
 
 

@@ -72,16 +72,7 @@ def run_tap(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     depth = above_zero(settings, "move.depth") or DEPTH
     spindle = spindle_of(machine, settings)
     speed = _speed(spindle, settings)
-    given = settings.get("move.gear")
-    present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
-    if spindle.refusal:
-        raise SimulationError(f"{spindle.refusal} ({page_text(spindle.page)})", "move.gear")
-    gear, assumption = spindle.gear_for(speed, present)
-    if gear is None:
-        raise SimulationError(
-            f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} ({page_text(spindle.page)})",
-            "move.speed",
-        )
+    gear, assumption = _gear(spindle, settings, speed)
     name = machine.one_chosen("tap") or _tapping_axis(machine)
     axis = machine.bind(name, {})
     if axis.unit != "mm":
@@ -103,6 +94,21 @@ def run_tap(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         page_text(tapping.feed_stop_page)
     )
     return replace(trace, assumptions=(note, *trace.assumptions))
+
+
+def _gear(spindle: Spindle, settings: ScenarioSettings, speed: float) -> tuple[Gear, str]:
+    """Return the gear in which a speed is tapped, and what is assumed of it; raises SimulationError."""
+    given = settings.get("move.gear")
+    present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
+    if spindle.refusal:
+        raise SimulationError(f"{spindle.refusal} ({page_text(spindle.page)})", "move.gear")
+    gear, assumption = spindle.gear_for(speed, present)
+    if gear is None:
+        raise SimulationError(
+            f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} ({page_text(spindle.page)})",
+            "move.speed",
+        )
+    return gear, assumption
 
 
 def _speed(spindle: Spindle, settings: ScenarioSettings) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from amp_studio.sim.law import Source
 from amp_studio.sim.rounding import rounded
 
 from .linear import LawMatrices
@@ -62,14 +63,12 @@ def gains_of(trial: Tried) -> list[Gain]:
         if source is None or value is None:
             continue
         present = float(value.value)
-        low, high = trial.range_of(source.parameter)
         is_integral = "integral" in name
         # The sign of a gain is the wiring of a feedback: a search over both signs would try a loop that runs
         # away, so only the size is sought, on the side of zero where it is. An integral gain of the other
         # sign than the gain before it pushes away from the target: that one's sign is right for both.
         sign = gains[-1].sign if is_integral and gains else math.copysign(1.0, present or 1.0)
-        most = min(LARGEST if high is None else high, source.largest) if sign > 0.0 else -(low or -LARGEST)
-        least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0
+        least, most = _sizes(trial, source, sign)
         whole = source.whole or isinstance(value.value, int)
         decimals = trial.decimals(source.parameter)
         # A gain of 0 opens its loop: the least value above it that the control can have.
@@ -88,6 +87,14 @@ def gains_of(trial: Tried) -> list[Gain]:
         if _moves(trial, gain):
             gains.append(gain)
     return gains
+
+
+def _sizes(trial: Tried, source: Source, sign: float) -> tuple[float, float]:
+    """Return the least and the greatest size of a gain on its side of zero."""
+    low, high = trial.range_of(source.parameter)
+    if sign < 0.0:
+        return 0.0, -(low or -LARGEST)
+    return max(low or 0.0, 0.0), min(LARGEST if high is None else high, source.largest)
 
 
 def _moves(trial: Tried, gain: Gain) -> bool:
