@@ -174,16 +174,10 @@ def _judged(
     """Return what the runs of a scenario show."""
     instance, letter = axis or "", _letter_of(file, axis)
     # The worse end of the travel decides.
-    found = [(*_verdict(trace), trace) for trace, _, _ in runs]
-    verdict, why, decided = max(found, key=lambda each: _WORSE.index(each[0]))
+    decided = max((trace for trace, _, _ in runs), key=lambda trace: _WORSE.index(_verdict(trace)[0]))
     stops_at = bind_axis(file, law, instance).stops_at if instance else ""
     loops = Loops(bind_axis(file, law, decided.axis)) if scenario.name in SHOWN_BY else None
-    if verdict == "good":
-        verdict, why = _seen_from_outside(file, law, scenario, instance, decided, loops)
-    if verdict == "good" and scenario.opposite and len(runs) == 1:
-        verdict, why = "doubtful", _ONE_END
-    if verdict == "bad" and scenario.programmed:
-        verdict = "doubtful"  # the speed is the program's: another one may be good
+    verdict, why = _decided_verdict(file, law, scenario, instance, decided, loops, ends=len(runs))
     figures = {
         name + end: trace.result[name]
         for trace, _, end in runs
@@ -208,6 +202,27 @@ def _judged(
         _use_of_loops(loops, scenario.name) if loops else _use(decided, stops_at),
         decided,
     )
+
+
+def _decided_verdict(
+    file: ParameterFile,
+    law: Law,
+    scenario: Scenario,
+    instance: str,
+    trace: Trace,
+    loops: Loops | None,
+    *,
+    ends: int,
+) -> tuple[Verdict, str]:
+    """Return the verdict on the run that decides, of so many ends of the travel, and why it is not good."""
+    verdict, why = _verdict(trace)
+    if verdict == "good":
+        verdict, why = _seen_from_outside(file, law, scenario, instance, trace, loops)
+    if verdict == "good" and scenario.opposite and ends == 1:
+        verdict, why = "doubtful", _ONE_END
+    if verdict == "bad" and scenario.programmed:
+        verdict = "doubtful"  # the speed is the program's: another one may be good
+    return verdict, why
 
 
 def _seen_from_outside(
