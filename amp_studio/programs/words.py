@@ -94,13 +94,18 @@ def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
         # Expressions first: for the other pattern their parentheses would begin a remark.
         found = (_WITH_EXPRESSION.match(text, place) if expressions else None) or _PART.match(text, place)
         if found is None:
-            # Controls that part both: a letter whose number cannot be read, and what is no letter.
-            key = "no-digits" if bare else "no-letter" if block[place] > " " and block[place] != "$" else ""
-            raise ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions), key)
+            raise _unreadable_word(block, place, bare=bare, expressions=expressions)
         bare = bool(found.groupdict().get("letter")) and not found["number"]
         if found.groupdict().get("letter"):
             yield TypedWord(found["letter"], found["number"] or "", block[place : found.end()].strip())
         place = found.end()
+
+
+def _unreadable_word(block: str, place: int, *, bare: bool, expressions: bool) -> ProgramBlockError:
+    """Return the error of what is at a place, behind a letter that is ``bare`` of its number."""
+    # Some controls distinguish a letter whose number cannot be read from what is no letter.
+    key = "no-digits" if bare else "no-letter" if block[place] > " " and block[place] != "$" else ""
+    return ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions), key)
 
 
 def without_blanks(block: str) -> str:

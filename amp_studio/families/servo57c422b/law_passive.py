@@ -54,11 +54,8 @@ def _run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     turn = above_zero(settings, "move.turn") or MOTION.value("marker_distance")
     distance = number(settings, "move.distance")
     distance = _TURNS * turn if distance is None else distance
-    first = number(settings, "move.marker")
     sign = math.copysign(1.0, distance)
-    first = sign * _QUARTER * turn if first is None else first
-    # Markers are a turn apart on both sides: the next one in the direction of the motion.
-    marker = first + turn * (math.ceil(-first / turn) if sign > 0.0 else math.floor(-first / turn))
+    marker = _next_marker(number(settings, "move.marker"), turn, sign)
     coordinate = axis.needed(ids.command_position, "it is the position of the marker (page 4-33)")
     trace = STEP.run(axis, {"move.distance": distance})
     position = trace.columns["position"]
@@ -89,6 +86,12 @@ def _run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         assumptions=notes,
         limits=trace.limits,
     )
+
+
+def _next_marker(given: float | None, turn: float, sign: float) -> float:
+    """Return the first marker in the direction of the motion; they are a turn apart on both sides."""
+    first = sign * _QUARTER * turn if given is None else given
+    return first + turn * (math.ceil(-first / turn) if sign > 0.0 else math.floor(-first / turn))
 
 
 SCENARIO = Scenario(

@@ -213,21 +213,26 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSetting
         low=-math.inf if travel is None or sign > 0.0 else -travel,
         high=math.inf if travel is None or sign < 0.0 else travel,
     )
-    edge = 0.0
     if homing.approach:
         asked = above_zero(settings, "move.switch")
         around = replace(around, switch=sign * (asked or switch_ahead(axis, homing, ramp)))
-        edge = around.switch
-        leaves_forward = math.copysign(1.0, homing.leave) == sign and not homing.through and not homing.again
-        if leaves_forward and length is None:
-            raise SimulationError(
-                "The axis leaves the switch in the direction in which it came: give move.switch_length",
-                "move.switch_length",
-            )
-        if leaves_forward:
-            edge += sign * around.length
+    edge = _left_edge(homing, around, sign) if homing.approach else 0.0
     off = math.copysign(1.0, homing.leave)
     return replace(around, marker=edge + off * (_QUARTER * homing.turn if given is None else given))
+
+
+def _left_edge(homing: Homing, around: Surroundings, sign: float) -> float:
+    """Return the edge of the switch at which the axis leaves it: the nearer one, or that behind its length;
+    raises SimulationError where that length is not given.
+    """
+    if math.copysign(1.0, homing.leave) != sign or homing.through or homing.again:
+        return around.switch
+    if around.length == math.inf:
+        raise SimulationError(
+            "The axis leaves the switch in the direction in which it came: give move.switch_length",
+            "move.switch_length",
+        )
+    return around.switch + sign * around.length
 
 
 def _marker(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> tuple[float | None, bool]:

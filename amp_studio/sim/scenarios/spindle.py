@@ -249,15 +249,7 @@ def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
     given = settings.get("move.orient")
     angle = orient.angle if given in ("yes", True) else number(settings, "move.orient")
     assert angle is not None
-    notes: list[str] = []
-    alarms: list[Alarm] = []
-    gear = spindle.gears[0] if spindle.gears and speed is None else None
-    if speed is not None:
-        gear, notes, alarms = _geared(spindle, settings, speed)
-    if gear is None or gear.gain <= 0.0:
-        raise SimulationError(
-            f"No gain is set for the gear in which spindle {spindle.name} is oriented", "move.orient"
-        )
+    gear, notes, alarms = _orient_gear(spindle, settings, speed)
     unknown = settings.get("move.marker", "known")
     if unknown not in ("known", "unknown"):
         raise SimulationError("move.marker must be known or unknown", "move.marker")
@@ -304,6 +296,24 @@ def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
         alarms=tuple(alarms),
         assumptions=(*notes, *spindle.notes),
     )
+
+
+def _orient_gear(
+    spindle: Spindle, settings: ScenarioSettings, speed: float | None
+) -> tuple[Gear, list[str], list[Alarm]]:
+    """Return the gear of a speed, or the first one, in which a spindle is oriented, with notes and alarms;
+    raises SimulationError for a gear without a gain.
+    """
+    notes: list[str] = []
+    alarms: list[Alarm] = []
+    gear = spindle.gears[0] if spindle.gears and speed is None else None
+    if speed is not None:
+        gear, notes, alarms = _geared(spindle, settings, speed)
+    if gear is None or gear.gain <= 0.0:
+        raise SimulationError(
+            f"No gain is set for the gear in which spindle {spindle.name} is oriented", "move.orient"
+        )
+    return gear, notes, alarms
 
 
 def _way(orient: Orient, at: float, angle: float, sign: float, *, turning: bool, unknown: bool) -> float:

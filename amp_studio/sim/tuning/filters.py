@@ -55,12 +55,7 @@ class FilterUnknown:
         """Yield other settings of this filter alone; a notch is set at a resonance that is known."""
         now = setting[self.frequency]
         if not self.width:
-            tried = [share * self.filter.highest for share in _CUTOFFS]
-            tried += [now * factor for factor in _NEAR if now is not None]
-            # None is no candidate where a cutoff is set: the highest one takes as little out.
-            for value in dict.fromkeys(self.nearest(each) for each in tried):
-                if value != now:
-                    yield ((self.frequency, value),)
+            yield from self._other_cutoffs(now)
             return
         middles = [share * resonance for share in _BESIDE] if resonance else []
         pairs = [(self.nearest(middle), share * middle) for middle in middles for share in _WIDTHS]
@@ -70,6 +65,14 @@ class FilterUnknown:
             narrow = min(middle, max(_NARROWEST, rounded(width, _DIGITS)))
             if (middle, narrow) != (now, setting[self.width]) and middle > _NARROWEST:
                 yield ((self.frequency, middle), (self.width, narrow))
+
+    def _other_cutoffs(self, now: float | None) -> Iterator[FilterSetting]:
+        """Yield other cutoffs of a low-pass; never none, as the highest one takes as little out."""
+        tried = [share * self.filter.highest for share in _CUTOFFS]
+        tried += [now * factor for factor in _NEAR if now is not None]
+        for value in dict.fromkeys(self.nearest(each) for each in tried):
+            if value != now:
+                yield ((self.frequency, value),)
 
 
 class Filters:
