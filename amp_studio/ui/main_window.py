@@ -15,6 +15,7 @@ from amp_studio.schema import Address, isolated
 from amp_studio.validate import Finding
 
 from .actions import filters, guide, project, view
+from .actions.ahead import LoadedAhead
 from .actions.control import ControlDesk
 from .actions.edit import Edits
 from .actions.file import Files
@@ -73,6 +74,7 @@ class MainWindow(PartsWindow):
         self.visited = VisitedPlaces(self)
         self.pictures = Pictures(self)
         self.preview = ReportPreview(self)
+        LoadedAhead(self)
         self.centre = FrontStack()
         self.control = ControlDesk(self, self.files, self.centre, self.show_values)
         self.menus = Menus[PartsWindow](self, menus())

@@ -1,5 +1,6 @@
 """What is loaded beside the window is loaded by one thread at a time."""
 
+import subprocess
 import sys
 import threading
 from pathlib import Path
@@ -45,3 +46,36 @@ def test_the_window_loads_in_threads_by_that_loader_alone() -> None:
         if "target=import_module" in path.read_text(encoding="utf-8")
     ]
     assert others == []
+
+
+LOADED_AHEAD = """
+import subprocess
+import sys
+from PySide6.QtWidgets import QApplication
+application = QApplication(["test"])
+from amp_studio.ui import main_window  # what every start loads
+from amp_studio.ui.actions import ahead, picture
+from amp_studio.ui.base.loading import load
+from amp_studio.ui.window.studio_window import StudioWindow
+load(*picture.PARTS, "numpy")  # which are loaded before
+window = StudioWindow()
+loaded, numbers = ahead.LoadedAhead(window), []
+while loaded._left:
+    before = len(sys.modules)
+    loaded.step()
+    numbers.append(len(sys.modules) - before)
+assert max(numbers) <= 20, numbers
+before = set(sys.modules)
+for page in ("program.page", "motion.view", "motion.check_page", "motion.tests_page", "motion.tuning_page",
+             "control.page"):
+    load(f"amp_studio.ui.{page}")
+assert set(sys.modules) == before, set(sys.modules) - before
+"""
+
+
+def test_pages_are_loaded_ahead_in_small_pieces() -> None:
+    """The first page of blocks took 0.2 s on a busy machine, nearly all of it imports; each piece is at most
+    twenty modules, so that a key waits for few.
+    """
+    ran = subprocess.run([sys.executable, "-c", LOADED_AHEAD], capture_output=True, text=True, check=False)
+    assert (ran.returncode, ran.stderr) == (0, "")
