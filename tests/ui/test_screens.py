@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.drawing import THIN
 from amp_studio.schema import Value
 from amp_studio.sim import LimitUse, MotionCheck, Trace
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
@@ -290,6 +291,9 @@ def unreadable(window: QWidget) -> Iterator[tuple[str, str]]:
                 text = str(model.index(row, column).data() or "")
                 if column or not text.isdecimal():  # a number alone at the left is that of a parameter
                     seen.append((view, text))
+    for label in window.findChildren(QLabel):
+        if label.isVisible() and THIN in label.text() and Qt.mightBeRichText(label.text()):
+            yield "breaks in a number", label.text()
     for widget, text in seen:
         if RAW.search(text) or RAW_KEY.search(text):
             yield type(widget).__name__, text

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
 
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.theme import GAP2, GAP3
 
 from .differences import DifferenceTable
@@ -47,7 +48,9 @@ class CurrentRow(QWidget):
         """Show the value that is selected in the table; nothing where the table is not seen."""
         session, row = state.session, self._table.current()
         is_sending = state.direction == "send"
-        self.detail.setText(self._table.current_in_words(with_dangers=is_sending) if is_listed else "")
+        self.detail.setText(
+            unbroken(self._table.current_in_words(with_dangers=is_sending)) if is_listed else ""
+        )
         can_write = session is not None and session.phase == "ready" and not session.is_busy and is_sending
         is_sent = row is not None and can_write and row.takes_file
         can_keep = row is not None and is_sent and not row.is_fixed

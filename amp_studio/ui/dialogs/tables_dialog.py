@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import cells_of
 from amp_studio.schema import Address, Table
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import scheme
@@ -80,7 +81,7 @@ class TablesDialog(QDialog):
 
     def _show(self, item: QListWidgetItem | None, *_: object) -> None:
         if item is not None:
-            self.page.setHtml(self._html(self._schema.tables[item.data(Qt.ItemDataRole.UserRole)]))
+            self.page.setHtml(unbroken(self._html(self._schema.tables[item.data(Qt.ItemDataRole.UserRole)])))
 
     def _show_again(self) -> None:
         """Write the page again: its links keep the colour in which they were written."""

@@ -8,7 +8,7 @@ from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy
 
-from amp_studio.ui.base.theme import GAP2, colour, font
+from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
 
 _MIN_WIDTH, _MAX_WIDTH = 120, 300
 
@@ -22,7 +22,7 @@ class ListTitle(QLabel):
         self._strong = font("text")
         self._strong.setWeight(self._strong.Weight.Bold)
         self.setFont(font("text"))
-        self.setContentsMargins(6, 4, 6, 4)
+        self.setContentsMargins(GAP3, 4, 6, 4)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 
     def show_title(self, name: str, remark: str) -> None:
@@ -35,7 +35,7 @@ class ListTitle(QLabel):
     @property
     def needed(self) -> int:
         """The width that the name needs; a very long one is elided before the filters go."""
-        wide = QFontMetrics(self._strong).horizontalAdvance(self._name) + 2 * GAP2
+        wide = QFontMetrics(self._strong).horizontalAdvance(self._name) + GAP2 + GAP3
         return min(max(wide, _MIN_WIDTH), _MAX_WIDTH)
 
     def minimumSizeHint(self) -> QSize:

@@ -27,7 +27,7 @@ from amp_studio.sim import (
     value_text,
 )
 from amp_studio.ui.base.ask_path import ask_to_save
-from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.figures import unbroken, written
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.places import sentenced_with_letters
@@ -405,7 +405,7 @@ class CheckPage(PageOfFile):
         self.card.show_check(
             self._workspace.file, check, part_in_words(check.part), self._axes_of(check.scenario)
         )
-        self.detail.setText("<br>".join(self._lines_of(check)))
+        self.detail.setText(unbroken("<br>".join(self._lines_of(check))))
         self.detail.setVisible(bool(self.detail.text()))
         schema = self._workspace.file.schema
         self.detail.setToolTip("\n".join(name_of(schema, each) for each in dict.fromkeys(check.params)))

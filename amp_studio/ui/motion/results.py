@@ -59,8 +59,10 @@ class FiguresPage(QTextBrowser):
             f'<p style="color:{warn}">{html.escape(sentenced(text, family))}</p>' for text in trace.doubts
         )
         beside = self.tr("kept") if kind == "kept" else self.tr("saved")
-        rows = unbroken("".join(_rows(trace, before, beside)))
-        self.setHtml(f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{rows}</table>")
+        rows = "".join(_rows(trace, before, beside))
+        self.setHtml(
+            unbroken(f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{rows}</table>")
+        )
 
 
 def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:

@@ -25,6 +25,7 @@ from amp_studio.files import now, user, write_atomic
 from amp_studio.guide import tick
 from amp_studio.report import PrintedTest
 from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import sentenced, worded
@@ -129,7 +130,7 @@ class MachineTestsPage(PageOfFile):
     def _show_test(self) -> None:
         test = self._test
         self.save.setEnabled(bool(test and test.lines and not test.refusal))
-        self.steps.setHtml("" if test is None else self._written(test))
+        self.steps.setHtml("" if test is None else unbroken(self._written(test)))
 
     def _written(self, test: PrintedTest) -> str:
         """Return a test as rich text: its refusal, or its program and what must be seen at each step."""

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QFrame, QLabel, QWidget
 
 from amp_studio.drawing import Scene, scene_in_words
 from amp_studio.pictures import FASTEST, FilePicture
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, scheme
 from amp_studio.ui.base.translated import language_of_window, sentenced, unit_in_words, worded
@@ -173,7 +174,7 @@ class PictureCard(QFrame):
             more = self.tr("%n more", "", len(notes) - most)
             lines.append(f'<span style="color: {colour("dim").name()}">{escape(more)}</span>')
         self.notes.setVisible(bool(lines))
-        self.notes.setText("<br>".join(lines) if not is_brief else " · ".join(lines))
+        self.notes.setText(unbroken("<br>".join(lines) if not is_brief else " · ".join(lines)))
         self.notes.setToolTip("\n".join(note.text for note in notes))
 
     @property

@@ -11,6 +11,7 @@ from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QWidget
 
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.theme import GAP2, SMALL_ICON, colour, font, scheme, severity_icon
 from amp_studio.ui.forms.mask_list import MaskList
 
@@ -195,7 +196,7 @@ class RefusalFrame(QFrame):
             f'<span style="background-color:{cap}">&nbsp;{key}&nbsp;</span> {_html(what)}'
             for key, what in keys
         )
-        self._problem.setText(f"<b>{_html(refusal.problem)}.</b> {_html(allowed)}")
+        self._problem.setText(unbroken(f"<b>{_html(refusal.problem)}.</b> {_html(allowed)}"))
         self._by_rules.setText(f'<span style="color:{dim}">{_html(refusal.by_rules)}</span>')
         self._by_rules.setVisible(bool(refusal.by_rules))
         self._keys.setText(f'<span style="color:{dim}">{caps}</span>')
