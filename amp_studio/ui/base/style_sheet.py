@@ -43,7 +43,7 @@ QPushButton[primary="true"], QDialog QPushButton:default { background: $sel; col
     border-color: $sel; }
 QPushButton[primary="true"]:focus, QDialog QPushButton:default:focus { border-color: $text; }
 QPushButton[primary="true"]:disabled, QDialog QPushButton:default:disabled { background: $selidle;
-    color: $off; border-color: $line2; }
+    color: $dim; border-color: $line2; }
 
 QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 3px 5px; background: transparent;
     color: $text; }

@@ -72,7 +72,7 @@ COLOURS: dict[Token, tuple[str, str]] = {
     # Inks: the first, the second, and that of disabled controls alone.
     "text": ("#1A1E23", "#E3E6EA"),
     "dim": ("#58606B", "#A4ACB7"),
-    "off": ("#757D88", "#868E9A"),
+    "off": ("#676F7A", "#8C94A0"),
     # Focus, links and the one primary button; selected, and selected without the focus.
     "sel": ("#1D5BCB", "#7FADFF"),
     "onsel": ("#FFFFFF", "#0E1726"),

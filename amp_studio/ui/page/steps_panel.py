@@ -364,8 +364,8 @@ def _tip(step: SetupStep, family: str) -> str:
 
 
 def _token(each: StepProgress, now: GuideProgress) -> str:
-    """Return the colour of a step: what is not needed is off, what comes later dim."""
+    """Return the colour of a step: what is not needed or comes later is dim."""
     if each.state == "not needed":
-        return "off"
+        return "dim"
     is_near = now.current is None or each.step.number <= now.current.step.number
     return "text" if is_near or each.own else "dim"
