@@ -68,7 +68,7 @@ def split(line: str, separator: str, number: int) -> list[str]:
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell is meant as a number, with point or comma."""
+    """Return whether a cell is meant as a number, with point or comma."""
     return bool(_NUMBER.fullmatch(cell) or _COMMA_NUMBER.fullmatch(cell))
 
 

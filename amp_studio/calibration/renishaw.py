@@ -22,7 +22,7 @@ _TARGET = re.compile(r"[+-]?[0-9]{1,12}(?:\.[0-9]{1,12})?")
 
 
 def recognises(text: str) -> bool:
-    """Whether a text is such a file."""
+    """Return whether a text is such a file."""
     return "TARGET DATA::" in text and "DEVIATIONS::" in text
 
 

@@ -67,11 +67,11 @@ class ProgramCoordinates:
             self._system = code.code
 
     def is_other_system(self, code: KnownCode) -> bool:
-        """Whether a code selects a work system that is not the active one."""
+        """Return whether a code selects a work system that is not the active one."""
         return code.facts.does == "work-system" and not self.is_active(code)
 
     def is_active(self, code: KnownCode) -> bool:
-        """Whether the work system of a code is the active one."""
+        """Return whether the work system of a code is the active one."""
         return self._system == code.code
 
     def select(self, does: str, code: KnownCode) -> None:

@@ -223,7 +223,7 @@ class _Maker:
 
 
 def _keeps_its_place(parameter: Parameter, listed: frozenset[str]) -> bool:
-    """Whether a setting that the control does not list now comes with one that it lists."""
+    """Return whether a setting that the control does not list now comes with one that it lists."""
     return "homing.cycle" in listed and any((s.when or s.unless) in _KEPT_STATES for s in parameter.states)
 
 

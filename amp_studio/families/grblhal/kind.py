@@ -314,7 +314,7 @@ def _lacking_text(numbers: Sequence[int]) -> str:
 
 
 def _is_as_fine(text: str, reported: str) -> bool:
-    """Whether what is shown is all of it: of 0.0004 a control shows 0.000, and may contain either."""
+    """Return whether what is shown is all of it: of 0.0004 a control shows 0.000, and may contain either."""
     return text == reported or is_same_number(text, reported)
 
 

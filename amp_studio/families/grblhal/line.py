@@ -253,7 +253,7 @@ class GrblLine:
         self._suspended = state if state in SUSPENDED else ""
 
     def _is_refusal(self, line: str) -> bool:
-        """Whether a line refuses a command; remembers what came unasked."""
+        """Return whether a line refuses a command; remembers what came unasked."""
         self._is_pushed(line)
         return not self._lost_memory(line) and _ERROR.fullmatch(line) is not None
 

@@ -93,7 +93,7 @@ def decimals_of(reported: str) -> int | None:
 
 
 def is_shown_as(sent: str, reported: str) -> bool:
-    """Whether a control that shows a setting so may have got it so."""
+    """Return whether a control that shows a setting so may have got it so."""
     if sent == reported or is_same_number(sent, reported):
         return True
     decimals = decimals_of(reported)
@@ -106,6 +106,6 @@ def is_shown_as(sent: str, reported: str) -> bool:
 
 
 def is_same_number(a: str, b: str) -> bool:
-    """Whether two texts are the same number, whatever zeros are written."""
+    """Return whether two texts are the same number, whatever zeros are written."""
     numbers = [_WHOLE_NUMBER.fullmatch(text) for text in (a, b)]
     return all(numbers) and Decimal(a) == Decimal(b)

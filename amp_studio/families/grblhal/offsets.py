@@ -24,7 +24,7 @@ _HARMLESS = re.compile(
 
 
 def reports_inches(content: GrblContent) -> bool:
-    """Whether the control shows offsets in inches."""
+    """Return whether the control shows offsets in inches."""
     return content.settings.get(_REPORTS_INCHES, "0") == "1"
 
 
@@ -114,7 +114,7 @@ def startup_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tupl
 
 
 def _is_harmless(line: str) -> bool:
-    """Whether a start-up line sets modes only: no motion, spindle, coolant, tool or output."""
+    """Return whether a start-up line sets modes only: no motion, spindle, coolant, tool or output."""
     return _HARMLESS.fullmatch(re.sub(r"[\s|]", "", line)) is not None
 
 

@@ -121,7 +121,7 @@ def _read_startup(line: GrblLine) -> dict[int, str]:
 
 
 def _is_grblhal(who: GrblContent) -> bool:
-    """Whether a control is one that describes itself, and not a Grbl 1.1."""
+    """Return whether a control is one that describes itself, and not a Grbl 1.1."""
     return who.identity_word("FIRMWARE") == "grblHAL"
 
 

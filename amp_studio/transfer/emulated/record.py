@@ -117,7 +117,7 @@ def _is_sound(record: Record) -> bool:
 
 
 def is_answer(found: object) -> bool:
-    """Whether this is a Committed as ``written`` gives it."""
+    """Return whether this is a Committed as ``written`` gives it."""
     if not isinstance(found, dict) or set(found) != {each.name for each in fields(Committed)}:
         return False
     digits = all(

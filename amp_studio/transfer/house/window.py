@@ -53,7 +53,7 @@ class Window:
         return self._flying.get(number)
 
     def knows(self, number: int) -> bool:
-        """Whether a piece was ever sent under this number."""
+        """Return whether a piece was ever sent under this number."""
         return number in self._numbers
 
     def have(self, offset: int) -> None:

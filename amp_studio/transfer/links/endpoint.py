@@ -114,7 +114,7 @@ def parse_endpoint(text: str) -> Endpoint:
 
 
 def is_endpoint(text: str) -> bool:
-    """Whether a person means a control and not a file."""
+    """Return whether a person means a control and not a file."""
     return (
         "://" in text
         or _is_device(text)
@@ -123,7 +123,7 @@ def is_endpoint(text: str) -> bool:
 
 
 def _is_device(text: str) -> bool:
-    """Whether a text names a device, there or not;
+    """Return whether a text names a device, there or not;
     a file below /dev is a file (/dev/shm is a disk in memory).
     """
     if not text.startswith("/dev/"):

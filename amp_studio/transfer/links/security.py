@@ -47,7 +47,7 @@ def read_password(path: Path) -> str:
 
 
 def can_others_read(path: Path) -> bool:
-    """Whether other users of this computer may read a file; False on other systems than POSIX."""
+    """Return whether other users of this computer may read a file; False on other systems than POSIX."""
     return os.name == "posix" and bool(path.stat().st_mode & 0o077)
 
 
@@ -87,7 +87,7 @@ def fingerprint_of(certificate: Path) -> str:
 
 
 def _is_public(host: str) -> bool:
-    """Whether others than this computer reach what listens at a host."""
+    """Return whether others than this computer reach what listens at a host."""
     import ipaddress
 
     try:

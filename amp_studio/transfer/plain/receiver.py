@@ -121,7 +121,7 @@ class BlockReceiver:
         return decode_block(header[0], rest, crc=self._crc) or Came.DAMAGED
 
     def _is_end(self, *, is_repeated: bool) -> bool:
-        """Whether an EOT is one: it comes again when it is asked for.
+        """Return whether an EOT is one: it comes again when it is asked for.
         One of the file before is only acknowledged.
         """
         line = self._line

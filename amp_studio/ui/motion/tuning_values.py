@@ -115,7 +115,7 @@ class ValuesPage(TuningPart):
 
     @staticmethod
     def _is_relevant(file: ParameterFile, address: Address) -> bool:
-        """Whether a value is shown: active, or inactive and set."""
+        """Return whether a value is shown: active, or inactive and set."""
         state = file.evaluation.state(address)
         return state.is_active or (state.state != "hidden" and file.get(address) is not None)
 
