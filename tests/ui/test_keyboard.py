@@ -138,6 +138,20 @@ def test_a_commissioning_with_keys_alone(
     assert on_disk(path).get(EXCESS) == Value(11.66667, "mm")
 
 
+@pytest.mark.parametrize("name", ["Motion", "Tuning", "Check in Motion", "Blocks and Programs"])
+def test_the_keyboard_is_nowhere_where_it_is_not_seen(window: MainWindow, name: str, qtbot: QtBot) -> None:
+    """Tab went from the last button on to the table behind the page, where keys changed nothing one saw."""
+    hands = Hands()
+    action(window, name).trigger()
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is not None, timeout=WAIT_MS)
+    stops: list[QWidget] = []
+    while hands.here not in stops:
+        assert hands.here.isVisible(), f"after {len(stops)} Tabs"
+        stops.append(hands.here)
+        hands.press("Tab")
+    assert len(stops) > 5
+
+
 def test_a_changed_value_is_at_the_control_after_two_clicks_and_one_look(
     window: MainWindow, start_control: Callable[..., Control], qtbot: QtBot, path: Path
 ) -> None:

@@ -249,7 +249,7 @@ class FilePage(QWidget):
                 before.turned_away()
             self._stack.setCurrentWidget(self.pages[name] if name else self.middle)
             self.turned.emit()
-            (self.pages[name] if name else self).setFocus()
+            self._focus_front()
 
     def may_leave(self) -> bool:
         """Ask the pages that have work which would be lost; returns whether the file may be closed."""
@@ -263,7 +263,8 @@ class FilePage(QWidget):
 
     def _focus_front(self) -> None:
         """Give the keyboard to what is seen."""
-        front = self.pictures if self.middle.covers and self.pictures is not None else self.table_view
+        values = self.pictures if self.middle.covers and self.pictures is not None else self.table_view
+        front = self.pages.get(self.turned_to, values)
         if self.focusProxy() is not front:
             self.setFocusProxy(front)
             front.setFocus()
