@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.schema import Value
 from amp_studio.ui.control.page import ControlPage
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, settled
@@ -136,6 +137,34 @@ def test_a_commissioning_with_keys_alone(
     it_is_verified(hands, page, window, qtbot)
     the_report_is_written(hands, path.with_suffix(".csv"), qtbot)
     assert on_disk(path).get(EXCESS) == Value(11.66667, "mm")
+
+
+def test_a_new_machine_with_keys_alone(
+    open_window: Callable[..., MainWindow], user: User, tmp_path: Path, qtbot: QtBot
+) -> None:
+    """From the welcome to the table of the new file, and into a page and back."""
+    window, hands = open_window(), Hands()
+    user.chooses(tmp_path / "FIRST.amp")
+
+    def fill_in() -> None:
+        dialog = QApplication.activeModalWidget()
+        if not isinstance(dialog, NewFileDialog) or QApplication.focusWidget() is None:
+            QTimer.singleShot(50, fill_in)
+            return
+        hands.go_to("Name")
+        hands.press("Ctrl+A")
+        hands.enter("FIRST")
+        hands.press("Return")
+
+    QTimer.singleShot(50, fill_in)
+    hands.press("Ctrl+N")
+    qtbot.waitUntil(lambda: window.workspace is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is window.table_view, timeout=WAIT_MS)
+    hands.press("Alt+4")
+    qtbot.waitUntil(lambda: window.page_in_front.turned_to == "tuning", timeout=WAIT_MS)
+    assert hands.here is not window.table_view
+    hands.press("Escape")
+    assert hands.here is window.table_view
 
 
 @pytest.mark.parametrize("name", ["Motion", "Tuning", "Check in Motion", "Blocks and Programs"])
