@@ -8,7 +8,7 @@ from amp_studio.drawing import grouped
 from amp_studio.schema import Limits, Value, family_ids, load_schema
 from amp_studio.ui.base.figures import range_in_words, with_groups
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.table.cell_look import short_labels
+from amp_studio.ui.table.cell_look import CellLook, _show_word, short_labels
 
 
 @pytest.mark.parametrize(
@@ -63,6 +63,12 @@ def test_a_minus_is_as_wide_as_a_digit_where_it_is_shown_and_plain_where_it_is_t
     assert window.table.typed_value(address) == "-500 mm"
     window.edits.commit(address, "−400 mm")
     assert window.workspace.file.get(address) == Value(-400.0, "mm")
+
+
+def test_the_short_text_of_a_field_keeps_what_differs_and_drops_what_all_fields_begin_with() -> None:
+    look = CellLook("value")
+    _show_word(look, load_schema("num").parameters["axes.assignment"], 0x21)
+    assert (look.text, look.short) == ("Axis name: Y, Axis group: Group 3", "name: Y, group: Group 3")
 
 
 def test_a_short_choice_is_a_code_that_no_other_has() -> None:

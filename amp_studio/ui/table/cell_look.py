@@ -358,7 +358,13 @@ def _show_word(look: CellLook, parameter: Parameter, word: int) -> None:
     look.text = ", ".join(map(label_in_words, labels_of_word(parameter, word).split(", ")))
     look.unit = f"0x{word:X}" if word >= 0 else str(word)
     short = short_labels(tuple(label_in_words(bit.label) for bit in parameter.bits or ()))
-    look.short = ", ".join(short.get(name, name) for name in look.text.split(", "))
+    look.short = ", ".join(_short_part(short, part) for part in look.text.split(", "))
+
+
+def _short_part(short: dict[str, str], part: str) -> str:
+    """Return the shorter text of a bit, or of a field with its value: ``name: Y`` of ``Axis name: Y``."""
+    label, colon, value = part.partition(": ")
+    return short.get(part) or short.get(label, label) + colon + value
 
 
 def _show_plain(look: CellLook, parameter: Parameter, value: Value) -> None:
