@@ -68,6 +68,10 @@ def labels_of_word(parameter: Parameter, word: int) -> str:
         if number:
             parts.append(_part(field, number, is_alone=counts[plain(field.label)] == 1))
     parts += [f"bit {n}" for n in range(unnamed.bit_length()) if unnamed >> n & 1]
+    if not parts and any(choice.label == "none" for field in fields for choice in field.choices or ()):
+        # Axis X in group 1 is 0: "none" is the name of another value.
+        named = [field for field in fields if any(choice.raw == 0 for choice in field.choices or ())]
+        parts = [_part(field, 0, is_alone=False) for field in named]
     return ", ".join(parts) or "none"
 
 

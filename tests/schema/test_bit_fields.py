@@ -2,7 +2,15 @@
 
 import pytest
 
-from amp_studio.schema import InvalidValueError, Parameter, read_value
+from amp_studio.schema import (
+    InvalidValueError,
+    Parameter,
+    family_ids,
+    labels_of_word,
+    load_schema,
+    read_value,
+)
+from amp_studio.schema.bit_fields import word_of_labels
 
 WORD = Parameter.model_validate(
     {
@@ -82,3 +90,14 @@ def test_what_is_no_label_is_refused(text: str, message: str) -> None:
     with pytest.raises(InvalidValueError) as refused:
         read_value(WORD, text, "")
     assert message in str(refused.value)
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_a_word_of_zero_is_not_called_as_another_value_is(family: str) -> None:
+    """NUM's assignment of axis X to group 1 is 0, and ``none`` is 15 there."""
+    for parameter in load_schema(family).parameters.values():
+        fields = parameter.bits or ()
+        text = labels_of_word(parameter, 0)
+        assert word_of_labels(parameter, text) == 0
+        names = {c.label for field in fields for c in field.choices or () if c.raw}
+        assert text not in names, parameter.id
