@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import Difference, ParameterFile, axis_letter, by_schema, compare
+from amp_studio.files import Difference, ParameterFile, axis_letter, axis_letters, by_schema, compare
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Interim, NewValue
 
@@ -324,17 +325,25 @@ def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:
         line.order,
         tuple(line.until),
         is_label=parameter.type not in ("integer", "real"),
-        place=wanted.machine_schema.instance_label(address),
+        place=_place(wanted, address),
     )
 
 
 def _left_out(file: ParameterFile, address: Address, why: str) -> LeftOut:
-    return LeftOut(*_number_and_name(file, address), why, file.machine_schema.instance_label(address))
+    return LeftOut(*_number_and_name(file, address), why, _place(file, address))
+
+
+def _place(file: ParameterFile, address: Address) -> str:
+    """Return ``Axis X``; by its number where it has no letter, or another one has the same."""
+    label, axis = file.machine_schema.instance_label(address), address[1].partition(".")[0]
+    letters = axis_letters(file) if file.evaluation.scope(address) == "axis" else {}
+    letter = letters.get(axis, "")
+    is_its_own = letter and list(letters.values()).count(letter) == 1
+    return re.sub(rf"\b{axis}\b", letter, label, count=1) if is_its_own else label
 
 
 def _number_and_name(file: ParameterFile, address: Address) -> tuple[str, str]:
     schema, parameter = file.machine_schema, file.schema.parameters[address[0]]
     number = schema.number(address)
-    label = schema.instance_label(address)
     screen_text = number if number and not schema.is_disputed(address[0]) else schema.short(address)
-    return screen_text, f"{parameter.name} {label}".rstrip()
+    return screen_text, f"{parameter.name} {_place(file, address)}".rstrip()

@@ -30,7 +30,7 @@ def test_the_sheet_is_printed_in_a_safe_order_and_nothing_is_written(amp, sides,
     assert message.code == 0
     assert message.out.index("1750 ") < message.out.index("1740 ")
     assert (
-        "[ ]    1  1750                      40 mm                  11  Excess Error Axis 1 (page 7-20)"
+        "[ ]    1  1750                      40 mm                  11  Excess Error Axis X (page 7-20)"
         in message.out
     )
     assert sorted(tmp_path.iterdir()) == before
@@ -74,7 +74,7 @@ def test_what_the_screen_shows_is_compared_and_each_difference_is_named(amp, sid
     assert message.code == 1
     assert message.out.splitlines() == [
         (
-            "1740 Feedrate Suppression Point Axis 1: still the old value: the screen shows 11.00000, it"
+            "1740 Feedrate Suppression Point Axis X: still the old value: the screen shows 11.00000, it"
             " should be 39 mm"
         ),
         "1 as keyed in, 1 still the old value",

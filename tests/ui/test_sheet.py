@@ -53,7 +53,7 @@ def cells(sheet: HandSheet) -> list[list[str]]:
 def test_the_entries_are_in_a_safe_order_and_what_is_not_on_it_has_a_page(sheet: HandSheet) -> None:
     assert cells(sheet) == [["1", "1750", "11", "mm", "8"], ["2", "1740", "11", "mm", "7"]]
     assert sheet.left_out.toPlainText().startswith(
-        "2030  Servo Hardware Type Axis 2: Patch AMP does not offer it"
+        "2030  Servo Hardware Type Axis Y: Patch AMP does not offer it"
     )
     assert "E-Stop" in sheet.around.toPlainText()
     sheet.list.setCurrentItem(sheet.items()[0])
