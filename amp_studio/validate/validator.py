@@ -51,6 +51,7 @@ class Validator:
 
     def _prepare(self) -> None:
         self._plan: Plan = make_plan(self.file.schema, self.file.machine, self.own.rules)
+        self._about: dict[Address, tuple[RuleCheck, ...]] = {}
         self._checks = Checks(self.file, self.own.places)
         self._trials = Trials(self.file, self._plan, self.own)
         self._experience = Experience(self.file, self.earlier)
@@ -208,14 +209,17 @@ class Validator:
 
     def rules_without_values(self, address: Address) -> set[str]:
         """Return which of these rules cannot be checked, since a value that they need is not there."""
-        checks = list(self._checks_about(address))
+        checks = self._checks_about(address)
         return {c.rule.id for c in checks} - {c.rule.id for c in checks if self._checks.rules.is_complete(c)}
 
-    def _checks_about(self, address: Address) -> Iterator[RuleCheck]:
-        # What an edit wakes takes all addresses at once, and the window asks before the first edit.
-        is_prepared = "rule_readers" in vars(self._plan)
-        among = self._plan.rule_readers.get(address, ()) if is_prepared else self._plan.checks
-        return (check for check in among if check.is_about(address))
+    def _checks_about(self, address: Address) -> tuple[RuleCheck, ...]:
+        """Return the checks that read an address itself; looked for once, the window asks with every edit."""
+        if address not in self._about:
+            # What an edit wakes takes all addresses at once, and the window asks before the first edit.
+            is_prepared = "rule_readers" in vars(self._plan)
+            among = self._plan.rule_readers.get(address, ()) if is_prepared else self._plan.checks
+            self._about[address] = tuple(check for check in among if check.is_about(address))
+        return self._about[address]
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
         """Return the rule and the instance that a present finding is of; None for a range,

@@ -10,6 +10,7 @@ from amp_studio.report import finding_json, finding_text
 from amp_studio.schema import Address, InvalidValueError, Rule, Value
 from amp_studio.schema.expression import Circumstances, Decision, program
 from amp_studio.validate import SEVERITIES, AddressedValue, BuilderRules, Validator
+from amp_studio.validate.plan import RuleCheck
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
@@ -225,6 +226,19 @@ def test_the_rules_that_read_a_value_are_known(mill, is_edited: bool) -> None:
         "9pc.zone.group-empty",
         "9pc.powerup.zones-without-groups",
     ]
+
+
+def test_the_rules_that_read_a_value_are_looked_for_once(mill, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The window asks with every edit: 900 checks are woken by the type of an axis, and few read it."""
+    validator, asked = Validator(mill), list[RuleCheck]()
+    is_about = RuleCheck.is_about
+    monkeypatch.setattr(RuleCheck, "is_about", lambda c, a: asked.append(c) or is_about(c, a))
+    first = validator.rules_of(("axis.type", "1"))
+    number = len(asked)
+    assert number > 0
+    assert validator.rules_of(("axis.type", "1")) == first
+    validator.rules_without_values(("axis.type", "1"))
+    assert len(asked) == number
 
 
 # ------------------------------------------------------------------------------------------------- order
