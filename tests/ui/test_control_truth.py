@@ -17,6 +17,7 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.errors import Confirmed, TransferError
 from amp_studio.transfer.links import enter_password, parse_endpoint
+from amp_studio.transfer.links.password import Gate
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.control.differences import REMARK
 from amp_studio.ui.control.session import ControlSession, SentChanges
@@ -186,6 +187,10 @@ def test_a_password_that_is_asked_for_later_has_its_field_too(
 ) -> None:
     """A control that was read, and was started again with a password, could not be reached any more."""
     monkeypatch.setattr("amp_studio.transfer.links.password.ROUNDS", 10)
+    # A clock that stands: the wait after a wrong password does not end on a slow machine.
+    monkeypatch.setattr(
+        "amp_studio.transfer.links.opening.Gate", lambda password: Gate(password, clock=lambda: 0.0)
+    )
     control = start_control(password="open sesame")
     page = at_control(window, control.address, "send", qtbot)
     page.password.setText("open sesame")

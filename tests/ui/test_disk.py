@@ -11,6 +11,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import document
+from amp_studio.files.lock import EditLock
 from amp_studio.ui.actions.project import new
 from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.dialogs.file_dialogs import ProjectDialog
@@ -81,6 +82,33 @@ def test_a_slow_disk_keeps_no_key_waiting(window: MainWindow, monkeypatch: pytes
     assert workspace.document.journal_path.exists()
     assert len(threads) == 1
     assert threading.get_ident() not in threads
+
+
+def test_a_reload_waits_for_the_journal_that_is_being_written(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was written after the file had been given up, and offered as work of a program that was killed."""
+    workspace, given_up = window.workspace, threading.Event()
+    write, release = document.write_atomic, EditLock.release
+
+    def slow(*given: Any, **named: Any) -> str:
+        given_up.wait(0.3)
+        return write(*given, **named)
+
+    def give_up(lock: EditLock) -> None:
+        release(lock)
+        given_up.set()
+
+    monkeypatch.setattr(document, "write_atomic", slow)
+    monkeypatch.setattr(EditLock, "release", give_up)
+    window.edits.commit(EXCESS, "3 mm")
+    workspace._keep_unsaved()
+    keeping = workspace._keeping
+    assert keeping is not None
+    window.files.reload(window.page_in_front)
+    keeping.outcome()
+    assert window.workspace is not workspace
+    assert not workspace.document.journal_path.exists()
 
 
 def test_a_note_that_is_too_long_stays_in_its_form(window: MainWindow, qtbot: QtBot) -> None:

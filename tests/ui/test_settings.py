@@ -4,6 +4,7 @@ import os
 import stat
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QByteArray, QRect, QSettings, Qt
@@ -41,8 +42,12 @@ def test_recent_files_that_cannot_be_looked_at_are_left_out(open_window, path: P
 def test_a_recent_file_in_a_folder_without_permission_is_left_out(
     open_window, path: Path, monkeypatch
 ) -> None:
-    def refused(_: Path, **__: object) -> os.stat_result:
-        raise PermissionError(13, "Permission denied")
+    look = Path.stat
+
+    def refused(place: Path, **how: Any) -> os.stat_result:
+        if place == path:
+            raise PermissionError(13, "Permission denied")
+        return look(place, **how)
 
     remember(recent=[str(path)])
     with monkeypatch.context() as patched:

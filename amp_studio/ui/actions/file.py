@@ -190,7 +190,7 @@ class Files(Translated):
         def work() -> None:
             path, here = page.workspace.path, page.table_view.address()
             in_background(self.window, self.tr("Opening"), lambda: open_file(path))
-            page.workspace.document.close()  # gives up the lock
+            page.workspace.release()
             again = self._show(
                 in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path)), page
             )

@@ -340,11 +340,15 @@ class Workspace(QObject):
         else:
             self._is_at_risk = False
 
-    def close(self) -> None:
-        """Close the file."""
-        self._end_keeping()
+    def release(self) -> None:
+        """Give up the lock and the journal: the file is opened again, or closed."""
+        self._end_keeping()  # it would write the journal of a closed file, offered as lost work
         self._journal.stop()
         self.document.close()
+
+    def close(self) -> None:
+        """Close the file."""
+        self.release()
         self.closed.emit()
 
     # -- asking ----------------------------------------------------------------
