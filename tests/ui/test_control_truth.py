@@ -187,9 +187,9 @@ def test_a_password_that_is_asked_for_later_has_its_field_too(
 ) -> None:
     """A control that was read, and was started again with a password, could not be reached any more."""
     monkeypatch.setattr("amp_studio.transfer.links.password.ROUNDS", 10)
-    # A clock that stands: the wait after a wrong password does not end on a slow machine.
+    # The time does not go on: the wait after a wrong password does not end on a slow machine.
     monkeypatch.setattr(
-        "amp_studio.transfer.links.opening.Gate", lambda password: Gate(password, clock=lambda: 0.0)
+        "amp_studio.transfer.links.password.Gate", lambda password: Gate(password, clock=lambda: 0.0)
     )
     control = start_control(password="open sesame")
     page = at_control(window, control.address, "send", qtbot)

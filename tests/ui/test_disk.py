@@ -87,20 +87,20 @@ def test_a_slow_disk_keeps_no_key_waiting(window: MainWindow, monkeypatch: pytes
 def test_a_reload_waits_for_the_journal_that_is_being_written(
     window: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It was written after the file had been given up, and offered as work of a program that was killed."""
-    workspace, given_up = window.workspace, threading.Event()
+    """It was written after its file had been closed, and offered as work of a program that was killed."""
+    workspace, closed = window.workspace, threading.Event()
     write, release = document.write_atomic, EditLock.release
 
     def slow(*given: Any, **named: Any) -> str:
-        given_up.wait(0.3)
+        closed.wait(0.3)
         return write(*given, **named)
 
-    def give_up(lock: EditLock) -> None:
+    def close(lock: EditLock) -> None:
         release(lock)
-        given_up.set()
+        closed.set()
 
     monkeypatch.setattr(document, "write_atomic", slow)
-    monkeypatch.setattr(EditLock, "release", give_up)
+    monkeypatch.setattr(EditLock, "release", close)
     window.edits.commit(EXCESS, "3 mm")
     workspace._keep_unsaved()
     keeping = workspace._keeping
