@@ -32,7 +32,7 @@ REFUSED = {
     "no-whole-number": ", line 8: servo.sercos_cycle: Cycle Time for SERCOS takes whole numbers, not 1.5",
     "not-utf-8": ", line 7: is not UTF-8 text",
     "tab": ", line 8: is not readable: found a tab character that violates indentation",
-    "two-ways-to-read": ", line 8: home.calibration@1: '1,234' can be read two ways: write 1234 or 1.234",
+    "two-ways-to-read": ", line 8: home.calibration@1: '1,234' can be read two ways: write 1234 or 1.2340",
     "unit-of-something-else": ", line 8: home.calibration@1: Home Calibration is given in mm, not in ms",
     "unknown-choice": (
         ", line 8: servo.sercos_baud: '8 MHz' is not a choice of Baud Rate for SERCOS: 2 MHz (a), 4 MHz (b)"

@@ -159,7 +159,7 @@ def test_a_typst_literal_is_one_string_whatever_it_holds(text: str) -> None:
     assert re.fullmatch(r'"(?:[^"\\]|\\["\\])*"', literal), (
         "a quote or a backslash that stands alone would end it"
     )
-    assert all(c.isprintable() or c in "\u200b\u00a0" for c in literal)
+    assert all(c.isprintable() or c in "\u200b\u00a0\u2066\u2068\u2069" for c in literal)
 
 
 @given(st.text(st.characters(exclude_categories=["Cs"])))

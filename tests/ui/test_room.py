@@ -375,7 +375,7 @@ def test_an_axis_in_a_sentence_of_the_simulation_is_called_by_its_letter(
 
 def test_the_rated_torque_of_a_step_is_german(german: None) -> None:
     assert worded("Rated torque") == "Nenndrehmoment"
-    assert worded("100 % where torque is in %") == "100 %, wo es in % ist"
+    assert worded("100 % where torque is in %") == "100 %, wenn in %"
 
 
 @pytest.mark.parametrize(
