@@ -39,6 +39,9 @@ from .settings import UserSettings
 if TYPE_CHECKING:
     from .report_options import ReportOptions
 
+_NEXT_DIALOG_MS = 100
+"""Milliseconds in which another dialog may follow one that has closed, and takes the keyboard itself."""
+
 
 class StudioWindow(QMainWindow):
     """The open files in tabs, their panels and the actions.
@@ -62,7 +65,7 @@ class StudioWindow(QMainWindow):
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
         self.docks = Docks(self, self.settings)
-        self._take_keyboard = single_shot(self, self._take_keyboard_back)
+        self._take_keyboard = single_shot(self, self._take_keyboard_back, _NEXT_DIALOG_MS)
         cast("QApplication", QApplication.instance()).focusChanged.connect(self._follow_keyboard)
 
     @cached_property
