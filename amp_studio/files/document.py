@@ -303,14 +303,10 @@ class Document:
         """Where unsaved work is kept while the file is open."""
         return hidden_path(self.path, ".unsaved")
 
-    def keep_unsaved(self) -> None:
-        """Write the unsaved work beside the file, so that a killed program loses none; no change removes
-        it.
-        """
-        self.unsaved_writer()()
-
     def unsaved_writer(self) -> Callable[[], None]:
-        """Return what writes the unsaved work of this moment beside the file; another thread may call it."""
+        """Return what writes the unsaved work of this moment beside the file, so that a killed program loses
+        none; no change removes it. Another thread may call it.
+        """
         changes, header = self.unsaved_changes(), self._unsaved_header()
         if not changes and not header:
             return self._drop_journal

@@ -21,7 +21,7 @@ def saved(path: Path) -> list[str]:
     """Change a value, save, and return the notes."""
     with Document.open(path) as document:
         document.file.set(CALIBRATION, Value(7.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         document.save()
         return document.notes
 
@@ -101,7 +101,7 @@ def test_what_is_kept_beside_a_private_file_is_private(small: Path) -> None:
     small.chmod(0o600)
     with Document.open(small) as document:
         document.file.set(CALIBRATION, Value(7.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         assert stat.S_IMODE(document.journal_path.stat().st_mode) == 0o600
         document.save()
     for path in (small, backup_path(small), history_path(small)):

@@ -48,7 +48,7 @@ WORK = """
     document.file.set(("home.calibration", "1"), Value(7.5, "mm"))
     document.file.set(("home.position", "1"), None)
     document.file.set(("axis.type", "2"), Value("rotary"))
-    document.keep_unsaved()
+    document.unsaved_writer()()
     print("kept", flush=True)
     sys.stdin.readline()
     document.close()
@@ -107,7 +107,7 @@ def test_closing_without_saving_leaves_the_file(on_disk: Path) -> None:
     before = on_disk.read_bytes()
     with Document.open(on_disk) as document:
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
     assert (before, {"bench.amp"}) == (on_disk.read_bytes(), {path.name for path in on_disk.parent.iterdir()})
 
 
@@ -254,7 +254,7 @@ def test_a_system_that_has_no_name_for_the_user_is_no_reason_to_stop(on_disk: Pa
     monkeypatch.setattr(getpass, "getuser", no_user)
     with Document.open(on_disk) as document:
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         document.save()
         assert [entry.who for entry in document.history()] == ["unknown"]
 
@@ -320,14 +320,14 @@ def test_a_change_from_the_command_line_leaves_the_offer_and_shows_it_may_not_fi
 def test_the_journal_follows_the_work_and_goes_with_the_save(on_disk: Path) -> None:
     with Document.open(on_disk) as document:
         document.file.set(CALIBRATION, Value(1.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         assert document.journal_path.exists()
         assert document.find_unsaved() is None, "a program's own work is not offered to itself"
         document.file.set(CALIBRATION, Value(0.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         assert not document.journal_path.exists(), "there is nothing left to lose"
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         document.save()
         assert not document.journal_path.exists()
 
@@ -374,12 +374,12 @@ def test_what_this_schema_cannot_read_of_a_journal_is_left_out(on_disk: Path) ->
 def test_a_full_disk_does_not_cost_the_journal_that_was_there(on_disk: Path, disk) -> None:
     with Document.open(on_disk) as document:
         document.file.set(CALIBRATION, Value(1.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         kept = document.journal_path.read_bytes()
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         disk.fail(1, for_ever=True)
         with pytest.raises(SaveError):
-            document.keep_unsaved()
+            document.unsaved_writer()()
         disk.mend()
         assert kept == document.journal_path.read_bytes()
         assert {".bench.amp.lock", ".bench.amp.holder", ".bench.amp.unsaved"} == hidden(on_disk.parent)

@@ -112,7 +112,7 @@ def test_a_document_whose_save_fails_can_be_saved_again(tmp_path: Path, small: P
         small.write_bytes(content)
         documents.append(Document.open(small))
         documents[0].file.set(CALIBRATION, Value(7.0, "mm"))
-        documents[0].keep_unsaved()
+        documents[0].unsaved_writer()()
 
     def act() -> None:
         documents[0].save()

@@ -44,7 +44,7 @@ def test_everything_that_belongs_to_a_file_lies_beside_it_not_beside_its_link(
     first = on_disk.read_bytes()
     with Document.open(link) as document:
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         assert {".bench.amp.lock", ".bench.amp.holder", ".bench.amp.unsaved"} < names(on_disk.parent)
         document.save()
     assert names(link.parent) == {"other.amp"}
@@ -65,7 +65,7 @@ def test_everything_that_belongs_to_a_file_lies_beside_it_not_beside_its_link(
 def test_work_left_through_a_link_is_offered_to_who_opens_the_file(on_disk: Path, link: Path) -> None:
     document = Document.open(link)
     document.file.set(CALIBRATION, Value(2.0, "mm"))
-    document.keep_unsaved()
+    document.unsaved_writer()()
     os.close(document._lock._handle or -1)  # it ends as a killed program does
     with Document.open(on_disk) as again:
         left = again.find_unsaved()
@@ -117,7 +117,7 @@ def test_planted_links_in_the_place_of_companions_are_not_followed(on_disk: Path
     with Document.open(on_disk) as document:
         assert (document.find_unsaved(), document.history()) == (None, [])
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         document.save()
         assert document.notes == [
             "bench.amp: its history could not be written: Too many levels of symbolic links"

@@ -147,7 +147,7 @@ def test_a_name_too_long_for_its_companions_is_reported(tmp_path: Path) -> None:
     Document.create(mill, short).close()
     with Document.open(short) as document:
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        document.keep_unsaved()
+        document.unsaved_writer()()
         document.save()
         assert document.notes == []
     short.rename(long)

@@ -114,7 +114,7 @@ def test_a_group_that_there_is_not_is_refused(file: ParameterFile) -> None:
 def test_notes_survive_a_killed_program(path: Path) -> None:
     document = Document.open(path)
     set_value_note(document.file, EXCESS, "unsaved")
-    document.keep_unsaved()
+    document.unsaved_writer()()
     document._journal_is_ours = False  # as after a kill
     found = document.find_unsaved()
     assert found is not None

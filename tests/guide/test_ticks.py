@@ -82,7 +82,7 @@ def test_a_tick_survives_a_kill(tmp_path: Path) -> None:
     save_file(new_file("syntec"), tmp_path / "new.amp")
     with Document.open(tmp_path / "new.amp") as document:
         tick(document.file, find_step(document.file.schema, "home"), "ann")
-        document.keep_unsaved()
+        document.unsaved_writer()()
         kept = document.journal_path.read_bytes()
     (tmp_path / document.journal_path.name).write_bytes(kept)
     left = Document.open(tmp_path / "new.amp").find_unsaved()

@@ -28,7 +28,7 @@ document = Document.open(Path(sys.argv[1]))
 if "edit" in sys.argv:
     document.file.set(("servo.excess_error", "1"), Value(3.0, "mm"))
     document.file.set(("home.calibration", "2"), None)
-    document.keep_unsaved()
+    document.unsaved_writer()()
 print("ready", flush=True)
 sys.stdin.read()
 """
@@ -165,7 +165,7 @@ def test_nothing_entered_more_than_a_second_before_a_kill_is_lost(path: Path) ->
 def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: Path, user: User) -> None:
     document = Document.open(path)
     document.file.header.notes, document.file.header.name = "new belt", "the other mill"
-    document.keep_unsaved()
+    document.unsaved_writer()()
     document._lock.release()  # as the system does when the program is killed
     user.answers("Recover")
 

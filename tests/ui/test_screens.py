@@ -33,6 +33,7 @@ from amp_studio.drawing import THIN
 from amp_studio.schema import Value
 from amp_studio.sim import LimitUse, MotionCheck, Trace
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import font, scheme
 from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.forms.elided_label import ElidedLabel
@@ -148,7 +149,9 @@ def language(request: pytest.FixtureRequest, qapp: QApplication) -> Iterator[str
 
 
 def settled() -> None:
-    """Let the layouts of panels that were shown or hidden come to their end."""
+    """Wait for the threads that fill a page, and let the layouts come to their end."""
+    for task in list(Task.running):
+        task.wait()
     for _ in range(4):
         QApplication.processEvents()
 

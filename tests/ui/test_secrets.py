@@ -151,7 +151,7 @@ def test_a_comparison_shows_that_secrets_differ_and_not_how(window: MainWindow) 
 
 def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWindow) -> None:
     document = window.workspace.document
-    document.keep_unsaved()
+    document.unsaved_writer()()
     assert SECRET in document.journal_path.read_text("utf-8"), "work that was not saved is all there"
     window.workspace.save()
     assert SECRET not in document.history_path.read_text("utf-8")
