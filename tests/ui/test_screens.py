@@ -326,7 +326,7 @@ def scrolling_tabs(window: QWidget) -> Iterator[tuple[str, int]]:
         wanted = tabs.sizeHint().width()
         is_of_files = isinstance(tabs.parent().parent(), QSplitter)
         if tabs.isVisible() and not is_of_files and tabs.width() < wanted < 0.45 * window.width():
-            yield "tabs", wanted - tabs.width()
+            yield "tabs", [tabs.tabText(n) for n in range(tabs.count())], tabs.width(), wanted, tabs.parent().width()
 
 
 def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(

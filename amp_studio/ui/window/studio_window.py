@@ -77,9 +77,17 @@ class StudioWindow(QMainWindow):
 
     # -- the keyboard ------------------------------------------------------------
 
-    def _follow_keyboard(self, _: QWidget | None, now: QWidget | None) -> None:
-        if now is None:
+    def _follow_keyboard(self, before: QWidget | None, now: QWidget | None) -> None:
+        """Wait for the keyboard where a dialog of this window has lost it; other windows ask for their own."""
+        if now is not None:
+            self._take_keyboard.stop()
+        elif before is not None and before.window() is not self and self._is_above(before.window()):
             self._take_keyboard.start()
+
+    def _is_above(self, dialog: QWidget | None) -> bool:
+        while dialog is not None and dialog is not self:
+            dialog = dialog.parentWidget()
+        return dialog is self
 
     def _take_keyboard_back(self) -> None:
         """Take the keyboard from a dialog that has closed: without a window manager nobody gives it back."""
