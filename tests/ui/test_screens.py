@@ -320,13 +320,13 @@ def overlaps(window: QWidget) -> Iterator[tuple[str, str, str]]:
                     yield type(parent).__name__, type(one).__name__, type(other).__name__
 
 
-def scrolling_tabs(window: QWidget) -> Iterator[tuple[str, int]]:
+def scrolling_tabs(window: QWidget) -> Iterator[tuple[str, int, list[str]]]:
     """Yield tabs that have less room than they need where the window has it; those of files may be any."""
     for tabs in window.findChildren(QTabBar):
         wanted = tabs.sizeHint().width()
         is_of_files = isinstance(tabs.parent().parent(), QSplitter)
         if tabs.isVisible() and not is_of_files and tabs.width() < wanted < 0.45 * window.width():
-            yield "tabs", [tabs.tabText(n) for n in range(tabs.count())], tabs.width(), wanted, tabs.parent().width()
+            yield "tabs", wanted - tabs.width(), [tabs.tabText(n) for n in range(tabs.count())]
 
 
 def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
