@@ -78,7 +78,7 @@ class StudioWindow(QMainWindow):
     # -- the keyboard ------------------------------------------------------------
 
     def _follow_keyboard(self, before: QWidget | None, now: QWidget | None) -> None:
-        """Wait for the keyboard where a dialog of this window has lost it; other windows ask for their own."""
+        """Wait for the keyboard where a dialog of this window has lost it; other windows have their own."""
         if now is not None:
             self._take_keyboard.stop()
         elif before is not None and before.window() is not self and self._is_above(before.window()):
