@@ -2,7 +2,7 @@
 
 Where a line has letters that are written from right to left, a number, its sign and its unit change places
 by the rules of Unicode (UAX #9): ``-3.5 mm`` is seen as ``3.5- mm``. The characters for isolation keep them
-together; nobody sees them, and nothing but what is shown or printed contains them.
+together; they are not seen, and nothing but what is shown or printed contains them.
 """
 
 from __future__ import annotations

@@ -90,7 +90,7 @@ class StudioWindow(QMainWindow):
         return dialog is self
 
     def _take_keyboard_back(self) -> None:
-        """Take the keyboard from a dialog that has closed: without a window manager nobody gives it back."""
+        """Take the keyboard from a dialog that has closed: without a window manager it is not given back."""
         is_nowhere = QApplication.activeWindow() is None
         # Another program that has it makes this one inactive: from that nothing is taken.
         if is_nowhere and QGuiApplication.applicationState() == Qt.ApplicationState.ApplicationActive:
